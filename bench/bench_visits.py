@@ -17,9 +17,9 @@ from typing import Any
 from unittest.mock import patch
 
 from runtime.build_form import build_form
-from checker.flight import load, programs_of
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import pinned
 from checker.sampling.seeds import mission_seed
 from runtime.executive.mission import record_mission
 from runtime.executive.plan_reactor import PlanReactor
@@ -50,8 +50,9 @@ def measure(file: Path, count: int) -> None:
     """Fly and judge missions, then fly them again with a watch; the first two are not counted."""
     mission, _ = read_mission(file)
     assert mission is not None
-    agent = load_models(mission).agent
-    fly, programs = load(agent), programs_of(agent)
+    models = load_models(mission)
+    agent, load = models.agent, pinned(models)
+    fly, programs = load(agent), load.programs_of(agent)
     seeds = [mission_seed(mission.check.seed, number) for number in range(count + 2)]
     spent = {}
     ways: tuple[tuple[str, Callable[[int], object]], ...] = (

@@ -19,9 +19,10 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from runtime.build_form import build_form
-from checker.flight import fly_programs, programs_of
+from checker.flight import fly_programs
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import programs_of
 from checker.sampling.seeds import mission_seed
 from runtime.executive.mission import record_mission
 

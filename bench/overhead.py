@@ -18,9 +18,9 @@ from pathlib import Path
 
 from checker.batch.store import open_store
 from checker.campaign import Campaign
-from checker.flight import load
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import pinned
 from checker.sampling.seeds import mission_seed
 
 MISSION = Path(__file__).resolve().parent.parent / "models/gps/mission.toml"
@@ -46,7 +46,7 @@ def now() -> Spent:
 
 def bare(campaign: Campaign, missions: int) -> float:
     """Processor seconds of a mission flown and judged in this process; the first one, flown twice, warms up."""
-    fly = load(campaign.models.agent)
+    fly = campaign.load(campaign.models.agent)
     seeds = [mission_seed(campaign.mission.check.seed, number) for number in range(1, missions + 1)]
     fly(seeds[0])
     begun = now()
@@ -74,7 +74,8 @@ def main() -> None:
     arguments = parser.parse_args()
     mission, _ = read_mission(arguments.mission)
     assert mission is not None
-    campaign = Campaign(mission, load_models(mission), load)
+    models = load_models(mission)
+    campaign = Campaign(mission, models, pinned(models))
     count = arguments.missions
     alone = bare(campaign, count)
     print(f"{mission.agent.name}: {1000 * alone:.2f} ms of a processor for a bare mission")

@@ -25,6 +25,7 @@ from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Verdict, judge_losses
+from checker.pinned import overlay_of
 from checker.proofs.places import ModelText, text_of
 from checker.regression import FlownCase, RegressionCase
 from checker.report.timelines import Pair
@@ -199,9 +200,8 @@ class Campaign:
     def _seeker(self, flyer: Flyer, bounds: Bounds, seconds: float) -> CauseSearch:
         agent = self.models.agent
         programs = [self.models.programs[each.model] for each in agent.reactors]
-        return CauseSearch(
-            Suspended(agent, programs, self.mission.check.limits, flyer, mission=self.mission), bounds, seconds
-        )
+        limits, overlay = self.mission.check.limits, overlay_of(self.models)
+        return CauseSearch(Suspended(agent, programs, limits, flyer, overlay, self.mission), bounds, seconds)
 
     def _text(self) -> ModelText:
         return text_of(self.models.agent, self.models.programs)

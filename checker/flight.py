@@ -1,22 +1,19 @@
-"""Fly real missions: load the models of an agent once, then run the executive from a seed."""
+"""Fly real missions: run the executive from a seed, have what it did judged, and name files as the mission does."""
 
 import sys
 from collections.abc import Mapping
 from contextlib import redirect_stdout
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import partial
 from pathlib import Path
 from typing import overload
 
 from checker.batch.garbage import seldom_collected
-from checker.batch.worker import Fly
 from checker.coverage import universe_of
 from checker.judge.judge import breaches, judge_mission
 from checker.judge.rendering import DisagreementError
 from checker.names import relative_name
 from checker.properties import property_fates
-from compiler.lower import compile_model
-from nddl_lang.analysis import analyse_file
 from nddl_lang.text.read import read_source
 from runtime.executive.configuration import AgentConfiguration, CodeConfiguration
 from runtime.executive.events import changed_events
@@ -25,32 +22,8 @@ from runtime.executive.outcome import Conflict, Deadlock, Event, Outcome, Source
 from runtime.executive.record import MissionRecord
 from runtime.solver.configuration.configuration import Configuration, default_configuration
 from runtime.solver.configuration.read import read_configuration
-from runtime.user.library import load_library
 from runtime.user.reactor import Reactor
 from runtime.user.reactor_library import load_reactor
-
-Reactors = tuple[tuple[str, str | None], ...]  # model and solver of each
-
-
-def load(agent: AgentConfiguration) -> Fly:
-    """Compile the models of `agent`; the result flies one mission per call, and has it judged.
-
-    It raises `DisagreementError` where the judge holds that the executive broke the model.
-    """
-    root = Path(agent.root)
-    reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
-    load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
-    return partial(fly_once, agent)
-
-
-def fly_once(
-    agent: AgentConfiguration, seed: int, values: Mapping[str, float] | None = None, until: int | None = None
-) -> Outcome:
-    """Fly one mission; `values` replaces draws of the named parameters, `until` ends it before its final tick.
-
-    It raises `DisagreementError` where the judge holds that the executive broke the model.
-    """
-    return fly_programs(agent, programs_of(agent), seed, values, until)
 
 
 def fly_programs(
@@ -62,9 +35,10 @@ def fly_programs(
     *,
     tells_on: bool = True,
 ) -> Outcome:
-    """Fly one mission with the models as they were compiled; see `fly_once`.
+    """Fly one mission; `values` replaces draws of the named parameters, `until` ends it before its final tick.
 
-    Without `tells_on` conflicts end at what was observed: enough for who asks for the verdict alone.
+    It raises `DisagreementError` where the judge holds that the executive broke the model. Without `tells_on`
+    conflicts end at what was observed: enough for who asks for the verdict alone.
     """
     return fly_recorded(agent, programs, seed, values, until, tells_on=tells_on)[0]
 
@@ -101,27 +75,6 @@ def _arguments(programs: MissionPrograms) -> dict[str, tuple[str, ...]]:
     }
 
 
-def programs_of(agent: AgentConfiguration) -> MissionPrograms:
-    """The compiled models of `agent`, the flaw handling of its reactors, and the code of those in Python."""
-    root = Path(agent.root)
-    reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
-    programs = load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
-    return replace(programs, code=load_code(root, agent.coded))
-
-
-@lru_cache(maxsize=4)
-def load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...], seconds: float) -> MissionPrograms:
-    """The compiled models and the flaw handling of some reactors; kept, for flights that differ in parameters only."""
-    library = load_library(root, constraints, seconds=seconds)
-    models = {
-        model: compile_model(analyse_file(root / model, callables=library.callables))
-        for model in dict.fromkeys(model for model, _ in reactors)
-    }
-    solvers = tuple(load_solver(root, solver) for _, solver in reactors)
-    return MissionPrograms(tuple(models[model] for model, _ in reactors), solvers, library.constraints)
-
-
-@lru_cache(maxsize=4)
 def load_code(root: Path, coded: tuple[CodeConfiguration, ...]) -> tuple[type[Reactor], ...]:
     """The classes of the reactors that are written in Python."""
     return tuple(load_reactor(root, each.file, each.class_name) for each in coded)

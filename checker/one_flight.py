@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from checker.batch.identity import model_digest
-from checker.flight import fly_once, load_programs
+from checker.flight import fly_programs
 from checker.losses import losses_of
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Judgement, judge, judge_losses
+from checker.pinned import pinned
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import trace_json
 
@@ -39,9 +40,9 @@ class Flight:
 
 
 def fly(mission: Mission, models: ModelSet, settings: FlightSettings) -> Flight:
-    """Fly the mission once, with the models as they are now."""
-    load_programs.cache_clear()
-    outcome = fly_once(models.agent, settings.seed, dict(settings.values), settings.until)
+    """Fly the mission once."""
+    programs = pinned(models).programs_of(models.agent)
+    outcome = fly_programs(models.agent, programs, settings.seed, dict(settings.values), settings.until)
     judged = judge_losses(judge(outcome), losses_of(outcome), mission.check.limits)
     return Flight(settings, model_digest(models.texts), outcome, judged)
 

@@ -18,16 +18,15 @@ from checker.counterfactual.ranking import NO_CAUSES, Causes, RankedLine
 from checker.counterfactual.search import CauseSearch, Suspended, sites_in
 from checker.counterfactual.trials import Bounds
 from checker.faults import faults_of
-from checker.flight import load
 from checker.mission import Mission
 from checker.models import ModelSet, load_models
 from checker.mutation.choice import Mutant, mutants_of
 from checker.mutation.edits import DROPPED, SmallEdit
 from checker.mutation.variant import Overlay, load_over, open_over, with_edit
 from checker.oracle import Verdict, judge_losses
+from checker.pinned import pinned
 from checker.sampling.seeds import mission_seed
 from nddl_lang.text.read import real_path
-from runtime.executive.configuration import AgentConfiguration
 
 TOP = 3
 _MOST_SECONDS = 60.0  # for one flight
@@ -91,9 +90,9 @@ def with_mandatory_goals(mission: Mission) -> Mission:
     return replace(mission, agent=replace(mission.agent, goals=goals))
 
 
-def open_flyer(mission: Mission, agent: AgentConfiguration) -> Flyer:
+def open_flyer(mission: Mission, models: ModelSet) -> Flyer:
     """A process for mutants and trials, in which no flight takes long."""
-    return Flyer(load, agent, min(mission.check.time_limit, _MOST_SECONDS))
+    return Flyer(pinned(models), models.agent, min(mission.check.time_limit, _MOST_SECONDS))
 
 
 def prepare(mission: Mission, models: ModelSet, missions: int, flyer: Flyer) -> Ground:

@@ -1,8 +1,10 @@
 """Names of models in mission files: a declaration in; the places of open and closed mission files that name it, out."""
 
 import re
+import stat
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from lsprotocol.types import Location
@@ -11,15 +13,16 @@ from lsp.documents import Documents
 from lsp.mission_answers import declared_at, named
 from lsp.mission_texts import MissionTexts, OpenMission, place_at
 from lsp.occurrences import Role, Symbol
-from lsp.positions import Lines
+from lsp.positions import Encoding, Lines
 from lsp.project import Snapshot
 from lsp.references import Everywhere, Place, symbol_declared_at
-from lsp.roots import files_below
+from lsp.roots import files_below, folder_of
 from lsp.uris import key_of, uri_of
 from nddl_lang.text.read import read_text
 from nddl_lang.text.source import Span
 
 _LARGEST = 2**20  # bytes
+_MOST_KEPT = 256
 _REACTOR = "[[reactor]]"
 
 
@@ -77,13 +80,13 @@ def _missions(documents: Documents, missions: MissionTexts, found: Everywhere) -
     for mission in missions.all():
         seen.add(key_of(mission.path))
         yield mission
-    beside = dict.fromkeys(Path(project.key).parent for project in found.projects)
-    for path in _candidates((*documents.folders, *beside)):
+    beside = (folder for project in found.projects if (folder := folder_of(project.key)) is not None)
+    for path in _candidates(dict.fromkeys((*documents.folders, *beside))):
         if key_of(path) not in seen:
             seen.add(key_of(path))
-            text = _read(path)
-            if _REACTOR in text:
-                yield OpenMission(uri_of(path), path, 0, Lines(text, documents.encoding))
+            closed = _closed(path, documents.encoding)
+            if closed is not None:
+                yield closed
 
 
 def _candidates(folders: Iterable[Path]) -> Iterator[Path]:
@@ -91,8 +94,19 @@ def _candidates(folders: Iterable[Path]) -> Iterator[Path]:
         yield from files_below(folder, ".toml")
 
 
-def _read(path: Path) -> str:
+def _closed(path: Path, encoding: Encoding) -> OpenMission | None:
+    """The mission file at `path`; None where it is none, or cannot be read."""
     try:
-        return (read_text(path) or "") if path.stat().st_size <= _LARGEST else ""
+        status = path.stat()
+        is_small = stat.S_ISREG(status.st_mode) and status.st_size <= _LARGEST
+        return _read(path, encoding, status.st_mtime_ns, status.st_size) if is_small else None
     except (OSError, ValueError):
-        return ""
+        return None
+
+
+@lru_cache(_MOST_KEPT)
+def _read(path: Path, encoding: Encoding, changed: int, size: int) -> OpenMission | None:
+    """The mission file as it was when it was `changed` last and had that `size`."""
+    del changed, size
+    text = read_text(path) or ""
+    return OpenMission(uri_of(path), path, 0, Lines(text, encoding)) if _REACTOR in text else None

@@ -1,5 +1,6 @@
 """Find the model that a file is a part of, where only that file is open."""
 
+import os
 import re
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
@@ -12,7 +13,8 @@ from nddl_lang.text.read import read_text
 _INCLUDE = re.compile(r'^[ \t]*#include[ \t]*"([^"\n]+)"', re.MULTILINE)
 _SUFFIX = ".nddl"
 # Editors are opened on home directories too.
-_MOST_ENTRIES = 1000
+_MOST_FILES = 1000
+_MOST_ENTRIES = 20_000
 _LARGEST = 1_000_000
 
 
@@ -24,9 +26,15 @@ def root_of(path: Path) -> Path | None:
     return min(_roots(key_of(path), _neighbours(path.parent)), key=lambda file: file.name, default=None)
 
 
+def folder_of(key: str) -> Path | None:
+    """Where the file with that key lies; None of a text that was never saved."""
+    return path.parent if (path := Path(key)).is_absolute() else None
+
+
 def all_roots(key: str, folders: Iterable[Path]) -> list[Path]:
     """The files beside `key` and below `folders` that include it and that no other file there includes, by name."""
-    files = {key_of(file): file for file in _neighbours(Path(key).parent)}
+    folder = folder_of(key)
+    files = {key_of(file): file for file in _neighbours(folder)} if folder is not None else {}
     for folder in folders:
         for file in models_below(folder):
             files.setdefault(key_of(file), file)
@@ -40,20 +48,29 @@ def models_below(folder: Path) -> Iterator[Path]:
 
 def files_below(folder: Path, suffix: str) -> Iterator[Path]:
     """The files with that suffix in `folder` and the folders below it, as of `models_below`."""
-    pending, count = [folder], 0
-    while pending and count < _MOST_ENTRIES:
+    pending, count, seen = [str(folder)], 0, 0
+    while pending and count < _MOST_FILES and seen < _MOST_ENTRIES:
         try:
-            entries = sorted(islice(pending.pop().iterdir(), _MOST_ENTRIES))
+            with os.scandir(pending.pop()) as entries:
+                found = sorted(islice(entries, _MOST_ENTRIES - seen), key=lambda entry: entry.name)
         except OSError:
             continue
-        for entry in entries:
+        seen += len(found)
+        for entry in found:
             if entry.name.startswith(".") or entry.name == "node_modules" or entry.is_symlink():
                 continue
-            if entry.is_dir():
-                pending.append(entry)
-            elif entry.suffix == suffix and count < _MOST_ENTRIES:
+            if _is_folder(entry):
+                pending.append(entry.path)
+            elif entry.name.endswith(suffix) and count < _MOST_FILES:
                 count += 1
-                yield entry
+                yield Path(entry.path)
+
+
+def _is_folder(entry: "os.DirEntry[str]") -> bool:
+    try:
+        return entry.is_dir()
+    except OSError:
+        return False
 
 
 def _roots(target: str, files: Iterable[Path]) -> list[Path]:
@@ -79,7 +96,7 @@ def _roots(target: str, files: Iterable[Path]) -> list[Path]:
 
 def _neighbours(directory: Path) -> Iterator[Path]:
     try:
-        entries = sorted(islice(directory.iterdir(), _MOST_ENTRIES))
+        entries = sorted(islice(directory.iterdir(), _MOST_FILES))
     except OSError:
         return
     yield from (entry for entry in entries if entry.suffix == _SUFFIX)
@@ -94,7 +111,7 @@ def _included(file: Path) -> tuple[str, ...]:
     return _read_includes(file, status.st_mtime_ns, status.st_size) if status.st_size <= _LARGEST else ()
 
 
-@lru_cache(4 * _MOST_ENTRIES)
+@lru_cache(4 * _MOST_FILES)
 def _read_includes(file: Path, changed: int, size: int) -> tuple[str, ...]:
     """What `file` included when it was `changed` last and had that `size`."""
     del changed, size

@@ -7,11 +7,12 @@ from typing import Any
 import click
 
 from checker.excerpts import Excerpts
-from checker.flight import fly_recorded, load_code, load_solver
+from checker.flight import fly_recorded
 from checker.mission import LARGEST_SEED, Mission
 from checker.models import ModelSet, load_models
 from checker.mutation.variant import open_over
 from checker.oracle import Verdict, judge
+from checker.pinned import pinned
 from checker.proofs.box import Point
 from checker.proofs.certify import Certainty, Certificate, Certifier
 from checker.proofs.constants import SafeConstant, places_of, safe_constant, with_value
@@ -19,10 +20,8 @@ from checker.proofs.rendering import certificate_data, certificate_lines, consta
 from nddlc.inputs import Unusable, mission_here
 from nddlc.one_mission import prepare
 from nddlc.trust import trust_option
-from runtime.executive.mission import MissionPrograms
 from runtime.executive.outcome import Outcome
 from runtime.executive.record import MissionRecord
-from runtime.user.library import load_library
 
 
 @click.command()
@@ -70,17 +69,13 @@ _Bound = tuple[str, SafeConstant | None, tuple[Any, ...], Certificate | None]
 def certifier_of(models: ModelSet, seed: int) -> Certifier:
     """What certifies a mission, with missions flown in this process."""
     agent = models.agent
-    root = Path(agent.root)
-    library = load_library(root, agent.constraints, seconds=agent.constraint_seconds)
-    programs = tuple(models.programs[each.model] for each in agent.reactors)
-    solvers = tuple(load_solver(root, each.solver) for each in agent.reactors)
-    flown = MissionPrograms(programs, solvers, library.constraints, load_code(root, agent.coded))
+    flown = pinned(models).programs_of(agent)
 
     def fly(point: Point) -> tuple[Outcome, MissionRecord, bool]:
         outcome, record = fly_recorded(agent, flown, seed, point)
         return outcome, record, judge(outcome).verdict is Verdict.PASS
 
-    return Certifier(agent, programs, fly)
+    return Certifier(agent, flown.programs, fly)
 
 
 def _bounded(name: str, certifier: Certifier, mission: Mission, models: ModelSet, seed: int) -> _Bound:

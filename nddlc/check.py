@@ -18,9 +18,9 @@ from checker.counterfactual.trials import MOST_FLIGHTS, Bounds
 from checker.coverage import coverage_of
 from checker.excerpts import Excerpts
 from checker.findings import Findings
-from checker.flight import load
 from checker.mission import LARGEST_SEED, Mission, read_mission
 from checker.oracle import USER_CODE
+from checker.pinned import pinned
 from checker.regression import RegressionCase, RegressionError, agent_of, read_cases, regressions_path
 from checker.report.coverage import coverage_text
 from checker.report.document import json_report
@@ -203,7 +203,7 @@ def _prepare(
     if style == "text":
         weighty = (Severity.ERROR, Severity.WARNING)
         _tell(tuple(one for one in (*found, *models.diagnostics) if one.severity in weighty), style)
-    return Campaign(mission, models, load)
+    return Campaign(mission, models, pinned(models))
 
 
 def _overridden(mission: Mission, missions: int | None, seed: int | None, max_failure_rate: float | None) -> Mission:

@@ -6,8 +6,8 @@ from contextlib import redirect_stdout
 
 import click
 
-from checker.flight import programs_of
-from checker.mission import Mission
+from checker.models import ModelSet
+from checker.pinned import pinned
 from compiler.determined.codes import CHOICE_LEFT
 from compiler.determined.reasons import ChoiceReason
 from nddl_lang.text.nearest import nearest
@@ -50,8 +50,8 @@ def command(
     """
     (file,) = readable((path,), directories)
     if file.suffix == ".toml":
-        _, mission, _ = prepare(path, is_trusted=is_trusted)
-        found = list(_of_mission(mission, reactor))
+        _, _, models = prepare(path, is_trusted=is_trusted)
+        found = list(_of_mission(models, reactor))
     elif reactor is not None:
         raise Unusable("`--reactor` names a reactor of a mission file, and this is a model")
     else:
@@ -70,15 +70,15 @@ def command(
 _Found = tuple[ReactorConfiguration, RegisterProgram | None, tuple[ChoiceReason, ...]]
 
 
-def _of_mission(mission: Mission, name: str | None) -> Iterator[_Found]:
+def _of_mission(models: ModelSet, name: str | None) -> Iterator[_Found]:
     """The reactors of a mission, or the one that is asked for."""
-    agent = mission.agent
+    agent = models.agent
     names = [each.name for each in agent.reactors]
     if name is not None and name not in names:
         meant = nearest(name, names)
         advice = f"did you mean `{meant}`?" if meant is not None else f"there are: {', '.join(names)}"
         raise Unusable(f"the mission has no reactor `{name}`", advice)
-    programs = programs_of(agent)
+    programs = pinned(models).programs_of(agent)
     for number, configuration in enumerate(agent.reactors):
         if name in (None, configuration.name):
             with redirect_stdout(sys.stderr):

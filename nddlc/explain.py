@@ -16,7 +16,6 @@ from checker.counterfactual.trials import MOST_FLIGHTS, MOST_SECONDS, Bounds
 from checker.excerpts import Excerpts
 from checker.explain import MOST_CAUSES, result_data, result_text, story_data, story_text
 from checker.findings import Fault
-from checker.flight import load
 from checker.graph import causal_graph, focused
 from checker.graph_rendering import graph_data, graph_dot, graph_svg, graph_text
 from checker.judge.written_values import DocumentError
@@ -24,6 +23,7 @@ from checker.logged import Departure, MissionLog, ReactorLog, first_departure, r
 from checker.mission import read_mission
 from checker.models import ModelSet, load_models
 from checker.oracle import Verdict
+from checker.pinned import pinned
 from nddlc.check import STORE
 from nddlc.inputs import Unusable, readable
 from nddlc.mission_trust import models_of
@@ -140,8 +140,9 @@ def _replayed(path: Path, mission_path: Path, bounds: Bounds, is_trusted: bool) 
         raise Unusable(
             f"`{path}` has no log of a reactor of the mission that asks nobody", "these are what can be played again"
         )
-    campaign = Campaign(changed, load_models(changed), load)
-    result = campaign.judged(fly_one(load(campaign.models.agent), campaign.task(1), keep_trace=True))
+    models = load_models(changed)
+    campaign = Campaign(changed, models, pinned(models))
+    result = campaign.judged(fly_one(campaign.load(campaign.models.agent), campaign.task(1), keep_trace=True))
     findings = campaign.assess((result,), focus=1, bounds=bounds if bounds.flights else None)
     fault = next(iter(findings.faults), None)
     return _Found(campaign, path.name, result, fault, True, (result,), _told_of_log(log, players, others, result))
@@ -216,9 +217,10 @@ def campaign_of(run: Run, is_trusted: bool) -> tuple[Campaign, bool]:
         raise Unusable(f"`{path}`, the mission file of the run, is in error", f"nddlc check {path}")
     mission = replace(mission, check=replace(mission.check, seed=run.seed, missions=run.missions))
     models = models_of(mission, is_trusted=is_trusted, is_named=False)
-    campaign = Campaign(mission, models, load)
+    campaign = Campaign(mission, models, pinned(models))
     if models.has_errors:
-        return Campaign(mission, ModelSet(mission.agent, {}, {}, {}, ()), load), False
+        nothing = ModelSet(mission.agent, {}, {}, {}, ())
+        return Campaign(mission, nothing, pinned(nothing)), False
     if run.sampler in SAMPLERS:
         name, make_sampler = find_sampler(run.sampler)
         campaign = replace(campaign, sampler_name=name, make_sampler=make_sampler)
@@ -243,4 +245,4 @@ def _result(
     if stored is None and run.sampler != "random":
         raise Unusable(f"mission {number} of run {run.id} was not flown, and only the sampler knows where it is")
     task = campaign.task(number, stored)
-    return campaign.judged(fly_one(load(task.agent or campaign.models.agent), task, keep_trace=True))
+    return campaign.judged(fly_one(campaign.load(task.agent or campaign.models.agent), task, keep_trace=True))

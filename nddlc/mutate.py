@@ -56,7 +56,7 @@ def command(
         mission = with_mandatory_goals(mission)
         models = load_models(mission)
     found: list[MutantReport] = []
-    with open_flyer(mission, models.agent) as flyer, _until_interrupted() as ending:
+    with open_flyer(mission, models) as flyer, _until_interrupted() as ending:
         ground = prepare(mission, models, missions, flyer)
         if not ground.seeds:
             raise Unusable(f"none of the first {missions} missions passes without a fault", "--missions flies more")

@@ -10,12 +10,12 @@ import click
 from checker.batch.identity import model_digest
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign
-from checker.flight import load
 from checker.gold import differences, gold_lines, gold_path, read_gold
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.one_flight import FlightSettings, fly
 from checker.oracle import Verdict
+from checker.pinned import pinned
 from checker.process import (
     STEPS,
     UNBUILT,
@@ -89,7 +89,7 @@ def _take(
         return verdict is Verdict.PASS, f"seed {mission.check.seed}: {verdict.value} at tick {flight.outcome.last_tick}"
     if step is ProcessStep.GOLD:
         return _gold(file, mission, models)
-    campaign = Campaign(mission, models, load)
+    campaign = Campaign(mission, models, pinned(models))
     try:
         with open_store(store_path) as store:
             flown = campaign.fly(workers, store)

@@ -8,8 +8,8 @@ import click
 
 from checker.batch.store import RunStore, StoreError, open_store
 from checker.campaign import Campaign, Enough, Flown
-from checker.flight import load
 from checker.mission import read_mission
+from checker.pinned import pinned
 from checker.report.study import study_data, study_page, study_svg, study_text
 from checker.study.cells import StudyCell, campaign_of, cell_of, lay_out, with_beyond
 from checker.study.reading import StudyFile, Variant, read_study
@@ -132,7 +132,7 @@ class _Study:
             for one in models.diagnostics:
                 click.echo(render(one, colour=colours()), err=True)
             raise Unusable(f"the models of variant `{variant.name}` are in error")
-        return Campaign(mission, models, load)
+        return Campaign(mission, models, pinned(models))
 
     def fly(
         self, base: Campaign, variant: Variant, sampling: str, missions: int | None, store: RunStore, *, stops: bool

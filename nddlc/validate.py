@@ -6,7 +6,6 @@ from typing import Any, NamedTuple
 
 import click
 
-from checker.flight import load_programs
 from checker.judge.document import record_data
 from checker.judge.draws import Chance
 from checker.judge.judge import judge_mission, judge_plan
@@ -18,6 +17,7 @@ from checker.judge.written_values import DocumentError
 from checker.logged import MissionLog, is_log, read_mission_log
 from checker.mission import read_mission
 from checker.one_flight import read_trace
+from checker.pinned import pinned
 from checker.proofs.judgement import ProvedJudgement, judgement_data, judgement_text, prove_record
 from checker.proofs.operands import names_of
 from compiler.lower import compile_model
@@ -131,9 +131,7 @@ def _loaded(path: Path, is_trusted: bool, *, is_named: bool = True) -> tuple[Age
     assert mission is not None
     models = models_of(mission, is_trusted=is_trusted, is_named=is_named)
     _refuse(models.diagnostics)
-    reactors = tuple((reactor.model, reactor.solver) for reactor in models.agent.reactors)
-    root = Path(models.agent.root)
-    return models.agent, load_programs(root, reactors, models.agent.constraints, models.agent.constraint_seconds)
+    return models.agent, pinned(models).programs_of(models.agent)
 
 
 def _refuse(found: tuple[Diagnostic, ...]) -> None:

@@ -167,7 +167,7 @@ class _Spare:
 
     def take(self, load: Load, agent: AgentConfiguration) -> Worker | None:
         """The worker that has loaded this."""
-        if self._kept is None or self._kept[0] is not load or self._kept[1] != agent:
+        if self._kept is None or self._kept[0] != load or self._kept[1] != agent:
             return None
         worker, self._kept = self._kept[2], None
         return worker

@@ -55,7 +55,7 @@ def load_over(overlay: Overlay, agent: AgentConfiguration, *, tells_on: bool = T
     except _UnreadableEditError as problem:
         return partial(_raise, problem)  # when it is to fly: the process has other trials to make
     solvers = tuple(_solver(root, each.solver) for each in agent.reactors)
-    code = load_code(root, agent.coded)
+    code = _code(root, agent.coded)
     return partial(fly_programs, agent, MissionPrograms(programs, solvers, reader.constraints, code), tells_on=tells_on)
 
 
@@ -63,7 +63,7 @@ def _raise(problem: _UnreadableEditError, _: int) -> Outcome:
     raise problem
 
 
-_solver = cache(load_solver)
+_solver, _code = cache(load_solver), cache(load_code)
 
 
 @lru_cache(maxsize=_MOST_PARSES)

@@ -15,12 +15,12 @@ from checker.batch.process import Flyer, WorkerError, keeping_a_worker
 from checker.batch.result import MissionResult, read_result, write_result
 from checker.batch.store import Run, StoreError, open_store
 from checker.batch.worker import Load, Task
-from checker.flight import load
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.one_flight import FlightSettings
 from checker.one_flight import fly as fly_alone
 from checker.oracle import Judgement, Verdict
+from checker.pinned import pinned
 from checker.sampling.seeds import mission_seed
 from compiler.program import DomainConstant
 from runtime.executive.configuration import AgentConfiguration
@@ -91,7 +91,7 @@ def test_a_mission_of_a_batch_flown_alone_has_the_same_trace() -> None:
     models = load_models(mission)
     taker = Taker()
     tasks = [Task(number, mission_seed(7234, number), keeps_trace=True) for number in (15, 16, 17)]
-    fly_all(Batch(load, models.agent, tasks, 1, 60.0), taker)
+    fly_all(Batch(pinned(models), models.agent, tasks, 1, 60.0), taker)
     assert [one.verdict for one in taker.results] == [Verdict.PASS, Verdict.FAIL, Verdict.PASS]
     for result in taker.results:
         alone = fly_alone(mission, models, FlightSettings(result.seed, {}))

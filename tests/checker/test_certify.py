@@ -5,11 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from checker.flight import fly_recorded, programs_of
+from checker.flight import fly_recorded
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.variant import open_over
 from checker.oracle import Verdict, judge
+from checker.pinned import programs_of
 from checker.proofs.box import Point
 from checker.proofs.certify import Certainty, Certifier
 from checker.proofs.constants import places_of, safe_constant, with_value

@@ -21,8 +21,8 @@ def agent(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
 
 def plug(monkeypatch: pytest.MonkeyPatch, load: Load) -> None:
-    monkeypatch.setattr("nddlc.check.load", load)
-    monkeypatch.setattr("nddlc.explain.load", load)
+    monkeypatch.setattr("nddlc.check.pinned", lambda models: load)
+    monkeypatch.setattr("nddlc.explain.pinned", lambda models: load)
 
 
 def test_a_failing_model_ends_with_findings_and_a_reason(agent: None, capsys: pytest.CaptureFixture[str]) -> None:

@@ -15,11 +15,11 @@ from checker.counterfactual.ranking import Causes, Claim, rank
 from checker.counterfactual.rendering import causes_data, claim_text, effort_text
 from checker.counterfactual.search import Suspended, find_causes, sites_in
 from checker.counterfactual.trials import Bounds, Missions, TrialsEnd, damage_of
-from checker.flight import load
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.variant import load_over
 from checker.oracle import Verdict
+from checker.pinned import pinned
 from checker.sampling.seeds import mission_seed
 
 GPS = Path("models/gps").resolve()
@@ -31,7 +31,8 @@ def flyer() -> Iterator[Flyer]:
     """One process for all trials."""
     mission, _ = read_mission(GPS / "mission.toml")
     assert mission is not None
-    with Flyer(load, load_models(mission).agent, 60.0) as one:
+    models = load_models(mission)
+    with Flyer(pinned(models), models.agent, 60.0) as one:
         yield one
 
 

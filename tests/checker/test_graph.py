@@ -8,11 +8,12 @@ from pathlib import Path
 import networkx as nx
 import pytest
 
-from checker.flight import fly_once
+from checker.flight import fly_programs
 from checker.graph import CausalGraph, NodeKind, causal_graph, focused, layers
 from checker.graph_rendering import graph_dot, graph_svg, graph_text, node_text
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import pinned
 from nddlc.main import run
 from runtime.executive.outcome import Outcome
 from tests.checker.test_causes import FACT, GOAL, MISSION, MODEL
@@ -25,7 +26,8 @@ def late() -> Outcome:
     """A mission in which the satellite receiver is so slow that a surfacing takes too long."""
     mission, _ = read_mission(GPS / "mission.toml")
     assert mission is not None
-    return fly_once(load_models(mission).agent, 7, {"GPS_HIT_RATE": 3.9})
+    models = load_models(mission)
+    return fly_programs(models.agent, pinned(models).programs_of(models.agent), 7, {"GPS_HIT_RATE": 3.9})
 
 
 def ancestors(graph: CausalGraph) -> "nx.DiGraph[int]":

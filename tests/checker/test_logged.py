@@ -8,11 +8,11 @@ import pytest
 from click.testing import CliRunner
 
 from checker.causes import culprit_of, failed_by
-from checker.flight import fly_once
 from checker.logged import read_mission_log
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.oracle import Verdict, judge
+from checker.pinned import pinned
 from nddlc.explain import command as explain
 from nddlc.inputs import Unusable
 from nddlc.validate import command as validate
@@ -29,8 +29,8 @@ FORMS = pytest.mark.parametrize("is_old", [False, True], ids=["T-REX 2", "2011"]
 def flown(verdict: Verdict) -> Outcome:
     mission, _ = read_mission(GPS)
     assert mission is not None
-    agent = load_models(mission).agent
-    outcomes = (fly_once(agent, seed) for seed in range(200))
+    models = load_models(mission)
+    outcomes = map(pinned(models)(models.agent), range(200))
     return next(outcome for outcome in outcomes if judge(outcome).verdict is verdict)
 
 

@@ -4,9 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.flight import fly_programs, programs_of
+from checker.flight import fly_programs
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import programs_of
 from checker.proofs.conflict import Finding, confirm
 from checker.proofs.places import ModelText, text_of
 from runtime.executive.outcome import Conflict, ElementKind

@@ -22,7 +22,7 @@ def reports(name: str, limit: int) -> Iterator[MutantReport]:
     assert mission is not None, found
     models = load_models(mission)
     assert not models.has_errors, models.diagnostics
-    with open_flyer(mission, models.agent) as flyer:
+    with open_flyer(mission, models) as flyer:
         ground = prepare(mission, models, MISSIONS, flyer)
         assert len(ground.seeds) == MISSIONS
         yield from islice(measure(ground, flyer, SEED, Bounds), limit)

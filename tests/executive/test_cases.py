@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from checker.flight import programs_of
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.oracle import judge
+from checker.pinned import programs_of
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, run_mission
 from runtime.executive.outcome import Outcome

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from checker.flight import fly_once
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.one_flight import FlightSettings, first_departure, fly, read_trace, trace_text
 from checker.oracle import judge
+from checker.pinned import pinned
 from runtime.executive.outcome import EventKind, Outcome
 from tests.executive.flying import history, lines
 
@@ -116,7 +116,7 @@ def flown(folder: Path, code: str, on_failure: str = "abort_agent", seconds: flo
     assert mission is not None, found
     models = load_models(mission)
     assert not models.has_errors
-    return fly_once(replace(models.agent, constraint_seconds=seconds), 1)
+    return pinned(models)(replace(models.agent, constraint_seconds=seconds))(1)
 
 
 def test_it_publishes_asks_and_takes_back(folder: Path) -> None:
@@ -174,6 +174,7 @@ def test_a_log_player_does_what_was_done(folder: Path) -> None:
     path.write_text(played.replace("level = 0.75", f'trace = "{trace.as_posix()}"\nreactor = "eye"'))
     again, found = read_mission(path)
     assert again is not None, found
-    replayed = fly_once(load_models(again).agent, 1)
+    models = load_models(again)
+    replayed = pinned(models)(models.agent)(1)
     shown = ("observation", "request", "recall")
     assert lines(replayed, *shown) == lines(flight.outcome, *shown)

@@ -11,9 +11,9 @@ import pytest
 
 from checker.batch.result import MissionResult, read_result, write_result
 from checker.figures import Figures
-from checker.flight import programs_of
 from checker.mission import read_mission
 from checker.oracle import judge
+from checker.pinned import programs_of
 from checker.report.track import track_of
 from runtime.executive.columns import GuardColumns, RunColumns, StoredValues, TokenColumns, ValueColumn
 from runtime.executive.events import EventLog, causes_of, events_on, heads_of, numbered, single_events

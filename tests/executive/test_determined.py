@@ -7,9 +7,9 @@ from typing import NoReturn
 
 import pytest
 
-from checker.flight import programs_of
 from checker.judge.judge import judge_mission
 from checker.mission import read_mission
+from checker.pinned import programs_of
 from compiler.determined import code
 from runtime.determined.reactor import DeterminedReactor
 from runtime.executive.agent import Agent

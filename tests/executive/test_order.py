@@ -4,9 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.flight import fly_programs, programs_of
+from checker.flight import fly_programs
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import programs_of
 
 MODEL = """#include "TREX.nddl"
 class Lamp extends AgentTimeline { predicate Off { } Lamp(Mode m) { super(m, "Off"); } }

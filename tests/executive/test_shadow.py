@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.flight import programs_of
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import programs_of
 from runtime.determined.reactor import DeterminedReactor
 from runtime.executive import mission
 from runtime.executive.plan_reactor import PlanReactor

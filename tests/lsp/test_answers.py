@@ -10,7 +10,7 @@ from lsp.documents import Documents
 from lsp.links import page_of
 from lsp.mending import formatting, mends
 from lsp.open_text import DocumentContext
-from lsp.roots import root_of
+from lsp.roots import all_roots, files_below, root_of
 from lsp.symbols import outline
 from nddl_lang.syntax.incremental import common_ends
 
@@ -144,6 +144,23 @@ def test_the_root_of_a_part_is_found_over_several_files(tmp_path: Path) -> None:
     assert root_of(tmp_path / "main.nddl") is None
     assert root_of(tmp_path / "ring.nddl") is None
     assert root_of(tmp_path / "nowhere" / "x.nddl") is None
+
+
+def test_a_text_that_was_never_saved_lies_in_no_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Least of all in the one that the server was started in."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "main.nddl").write_text('#include "untitled:model"\n')
+    assert all_roots("untitled:model", ()) == []
+    assert all_roots(str(tmp_path / "untitled:model"), ()) == [tmp_path / "main.nddl"]
+
+
+def test_folders_are_looked_through_up_to_a_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for number in range(12):
+        (tmp_path / f"{number:02}").mkdir()
+        (tmp_path / f"{number:02}" / "a.nddl").write_text("")
+    assert len(list(files_below(tmp_path, ".nddl"))) == 12
+    monkeypatch.setattr("lsp.roots._MOST_ENTRIES", 16)
+    assert len(list(files_below(tmp_path, ".nddl"))) == 4
 
 
 def test_a_code_without_a_page_has_no_link() -> None:

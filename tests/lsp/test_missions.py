@@ -243,3 +243,15 @@ def test_a_rename_reaches_mission_files(
     assert len(found) == sum(map(len, changes.values()))
     assert client.ask_at("prepareRename", uri, line, character)["placeholder"] == old[0]
     assert client.ask_at("rename", uri, line, character, newName=name)["changes"] == changes
+
+
+def test_a_closed_mission_file_is_read_again_once_it_has_changed(opened: tuple[Any, str, str], tmp_path: Path) -> None:
+    client, _, model = opened
+    client.open(model, MODEL)
+    line, character = place_of(MODEL, "int hit")
+    counts = []
+    for text in (MISSION, MISSION.replace("hits", "hit"), MISSION):
+        (tmp_path / "other.toml").write_text(text)
+        found = client.ask_at("references", model, line, character, context={"includeDeclaration": True})
+        counts.append(sum(place["uri"].endswith("other.toml") for place in found))
+    assert counts == [1, 0, 1]

@@ -6,9 +6,9 @@ from typing import Literal
 
 import pytest
 
-from checker.flight import programs_of
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import programs_of
 from nddlc.main import run
 from runtime.executive.mission import run_mission
 from runtime.executive.outcome import EventKind, Outcome

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.flight import programs_of
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import programs_of
 from runtime.executive.mission import run_mission
 from runtime.executive.outcome import EventKind, Outcome
 from tests.models.bug_variants import Case, Variant, apply, read_variant

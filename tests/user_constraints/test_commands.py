@@ -12,9 +12,9 @@ import pytest
 from checker.batch import identity
 from checker.batch.identity import engine_digest, model_digest
 from checker.campaign import Campaign
-from checker.flight import load
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import pinned
 from nddlc.main import run
 from tests.user_constraints.own import TWICE, written
 
@@ -126,7 +126,8 @@ def test_the_identity_of_a_run_depends_on_module_and_data(mission: Path) -> None
     def named() -> str:
         read, _ = read_mission(mission)
         assert read is not None
-        return Campaign(read, load_models(read), load).run.id
+        models = load_models(read)
+        return Campaign(read, models, pinned(models)).run.id
 
     first = named()
     assert named() == first

@@ -10,9 +10,9 @@ from checker.campaign import Campaign
 from checker.conditions.condition import Condition
 from checker.conditions.find import find_condition
 from checker.conditions.flights import Refly
-from checker.flight import load
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import pinned
 from runtime.executive.configuration import AgentConfiguration
 
 MODEL = """#include "TREX.nddl"
@@ -63,12 +63,12 @@ def campaign(
     assert mission is not None, found
     models = load_models(mission)
     assert not models.has_errors, models.diagnostics
-    return Campaign(replace(mission), models, load)
+    return Campaign(replace(mission), models, pinned(models))
 
 
 def flown(given: Campaign) -> tuple[MissionResult, ...]:
     """All missions of a campaign."""
-    fly = load(given.models.agent)
+    fly = given.load(given.models.agent)
     return tuple(fly_one(fly, given.task(number)) for number in range(1, given.mission.check.missions + 1))
 
 
@@ -76,7 +76,7 @@ def reflying(given: Campaign) -> Refly:
     """Flights in this process."""
 
     def refly(agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
-        return given.judged(fly_one(load(agent), Task(number, seed)))
+        return given.judged(fly_one(given.load(agent), Task(number, seed)))
 
     return refly
 

@@ -12,7 +12,6 @@ from checker.conditions.flights import Ended, label_of
 from checker.conditions.measure import measured_on
 from checker.conditions.rendering import condition_text
 from checker.conditions.space import Space
-from checker.flight import load
 from checker.sampling.seeds import mission_seed
 from tests.checker.conditions.campaigns import RANGES, campaign, flown, reflying
 
@@ -72,7 +71,7 @@ def study(fresh: int) -> int:
         with TemporaryDirectory() as folder:
             given = campaign(Path(folder), rule, ranges=ranges, more=more, missions=400, final_tick=final_tick)
             results, agent = flown(given), given.models.agent
-            fly, space = load(agent), Space(agent, results)
+            fly, space = given.load(agent), Space(agent, results)
             missions = [fly_one(fly, Task(number, mission_seed(_FRESH_SEED, number))) for number in range(fresh)]
             for bucket in group_failures(results):
                 found = find_condition(bucket, results, agent, given.mission.check.seed, reflying(given))

@@ -11,16 +11,15 @@ from itertools import islice
 from pathlib import Path
 
 from checker.batch.worker import Fly
-from checker.flight import load
 from checker.judge.judge import judge_mission
 from checker.judge.rendering import DisagreementError, disagreement_text
 from checker.mission import read_mission
-from checker.models import load_models
+from checker.models import ModelSet, load_models
 from checker.mutation.choice import mutants_of
 from checker.mutation.edits import sites_of
 from checker.mutation.variant import load_graph, load_over, with_edit
+from checker.pinned import pinned
 from checker.sampling.seeds import mission_seed
-from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import record_mission
 from tests.checker.judge.fault_study import CASES, FRONT
 from tests.checker.judge.missions import GPS, INL
@@ -31,10 +30,15 @@ _SEED = 77
 Flights = Iterator[tuple[str, bool, list[str]]]  # what was flown, whether it passed, what the judge objects to
 
 
-def _agent(path: Path) -> AgentConfiguration:
+def _models(path: Path) -> ModelSet:
     mission, _ = read_mission(path)
     assert mission is not None
-    return load_models(mission).agent
+    return load_models(mission)
+
+
+def _fly(path: Path) -> Fly:
+    models = _models(path)
+    return pinned(models)(models.agent)
 
 
 def _flown(what: str, fly: Fly, seed: int) -> tuple[str, bool, list[str]]:
@@ -47,7 +51,7 @@ def _flown(what: str, fly: Fly, seed: int) -> tuple[str, bool, list[str]]:
 
 def _file(path: Path) -> Flights:
     """Missions of one file, seed after seed."""
-    fly, number = load(_agent(path)), 0
+    fly, number = _fly(path), 0
     while True:
         yield _flown(f"{path.parent.name} {number}", fly, mission_seed(_SEED, number))
         number += 1
@@ -56,7 +60,7 @@ def _file(path: Path) -> Flights:
 def _cases() -> Flights:
     """The small missions of the executive, each once."""
     for path in CASES:
-        yield _flown(path.parent.name, load(_agent(path)), 1)
+        yield _flown(path.parent.name, _fly(path), 1)
 
 
 def _random() -> Flights:
@@ -76,7 +80,7 @@ def _random() -> Flights:
 
 def _mutants() -> Flights:
     """Mutants of the navigator and the simulator of the GPS mission; what fails is judged as well."""
-    agent = _agent(GPS)
+    agent = _models(GPS).agent
     for reactor in agent.reactors:
         graph = load_graph(Path(agent.root) / reactor.model, ())
         for mutant in mutants_of(sites_of(graph), _SEED):

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 
-from checker.flight import programs_of
 from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
 from checker.judge.values import may_be_equal
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import programs_of
 from runtime.executive.mission import record_mission
 from runtime.executive.outcome import EventKind
 from tests.checker.judge.faults import Fault, broken, faults

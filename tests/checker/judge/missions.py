@@ -3,10 +3,10 @@
 from functools import lru_cache
 from pathlib import Path
 
-from checker.flight import programs_of
 from checker.judge.judge import judge_mission
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import programs_of
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
 from runtime.executive.mission import record_mission
 from tests.executive.flying import Flown, flown, planner, simulator

@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 import pytest
 
-from checker.flight import programs_of
 from checker.judge.judge import judge_mission
 from checker.judge.report import JudgeReport
 from checker.mission import read_mission
+from checker.pinned import programs_of
 from runtime.determined.expand import expand
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine

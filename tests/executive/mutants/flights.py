@@ -17,13 +17,13 @@ from pathlib import Path
 from types import FrameType
 
 from runtime.build_form import interpreting_is_asked
-from checker.flight import programs_of
 from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.edits import EditKind, SmallEdit, edited, sites_of
 from checker.mutation.variant import load_graph
+from checker.pinned import programs_of
 from nddl_lang.text.read import real_path
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, record_mission, run_mission
