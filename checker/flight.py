@@ -10,7 +10,7 @@ from typing import overload
 
 from checker.batch.garbage import seldom_collected
 from checker.coverage import universe_of
-from checker.judge.judge import breaches, judge_mission
+from checker.judge.judge import breaches, few_listed, judge_mission
 from checker.judge.rendering import DisagreementError
 from checker.names import relative_name
 from checker.properties import property_fates
@@ -56,6 +56,7 @@ def fly_recorded(
     root = Path(agent.root)
     with seldom_collected(), redirect_stdout(sys.stderr):  # what constraints print would end up in reports
         outcome, record = record_mission(agent, programs, seed, values, until=until, tells_on=tells_on)
+        record = few_listed(record)
         report = judge_mission(agent, programs.programs, outcome, record, programs.constraints, values)
     if report.errors:
         raise DisagreementError(report)

@@ -26,21 +26,6 @@ class RunRows(NamedTuple):
     children: Sequence[Array]
     guards: Sequence["GuardRows"]
 
-    def spread(self, rows: Array, count: int) -> "RunRows":
-        """The same runs as those of some rows out of `count`; what the others have is of no account."""
-        return RunRows(
-            self.rule,
-            [each.spread(rows, count) for each in self.locals],
-            [_spread(each, rows, count) for each in self.children],
-            [[each.spread(rows) for each in guard] for guard in self.guards],
-        )
-
-
-def _spread(keys: Array, rows: Array, count: int) -> Array:
-    found = np.full(count, keys[0])
-    found[rows] = keys
-    return found
-
 
 class BranchRows(NamedTuple):
     """Rows in which a guard came to the same, and what it ran there; `rows` is None for all."""
@@ -49,10 +34,6 @@ class BranchRows(NamedTuple):
     is_decided: bool
     rows: Array | None
     run: RunRows | None
-
-    def spread(self, rows: Array) -> "BranchRows":
-        """The same branch where the run that reached it is that of some rows out of more."""
-        return self._replace(rows=rows if self.rows is None else rows.take(self.rows))
 
 
 GuardRows = Sequence[BranchRows]  # each row is in one of them

@@ -44,11 +44,14 @@ def count_held(
     published: Publications,
     last_tick: int,
     codes: Mapping[str, PredicateCode],
-    is_own: bool,
+    observed: set[int] | None,
 ) -> int:
-    """How many publications agree with few active tokens of a timeline; -1 if not all plainly do, one per token."""
-    begun = {one.start: one for one in tokens if one.fate != "cut" and (is_own or one.origin == "observation")}
-    if len(begun) < len(tokens):
+    """How many publications agree with few active tokens of a timeline; -1 if not all plainly do, one per token.
+
+    `observed` are the ticks at which a reactor took note of something, None on its own timelines.
+    """
+    begun = {one.start: one for one in tokens if one.fate != "cut"}
+    if len(begun) < len(tokens) or (observed is not None and not begun.keys() <= observed):
         return -1
     told: set[Value] = set()
     count = 0
@@ -135,7 +138,7 @@ class BulkTimelines:
     def is_told(self, timeline: str, published: Publications, codes: Mapping[str, PredicateCode], is_own: bool) -> bool:
         """Whether each token plainly began with what was published, and nothing else was; if so it is counted."""
         rows = self.rows.get(timeline, np.empty(0, np.int64))
-        if not self._is_plain(rows) or not (is_own or self.tables.is_observed[rows].all()):
+        if not self._is_plain(rows) or not (is_own or self._are_observed(rows)):
             return False
         if published.columns and not published.single:
             count = self._told_in_columns(rows, [each for _, each in published.columns], codes)
@@ -143,6 +146,19 @@ class BulkTimelines:
             count = self._told_one_by_one(rows, published.events(self.bench.last_tick), codes)
         self.bench.judged += max(count, 0)
         return count >= 0
+
+    def _are_observed(self, rows: Array) -> bool:
+        """Whether at the beginning of each token something was observed, which may have been merged into it."""
+        tables = self.tables
+        if tables.is_observed[rows].all():
+            return True
+        is_seen = tables.is_observed & (tables.is_active | tables.is_merged) & (self.things == self.things[rows[0]])
+        start = tables.times[START]
+        if start.bad is not None:
+            is_seen &= ~start.bad
+        if start.open is not None:
+            is_seen &= ~start.open
+        return bool(np.isin(self.starts[rows], self.starts[is_seen]).all())
 
     def _told_one_by_one(self, rows: Array, published: Sequence[Event], codes: Mapping[str, PredicateCode]) -> int:
         """How many publications agree with the tokens; -1 if not all plainly do."""

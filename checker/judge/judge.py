@@ -25,7 +25,7 @@ from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.events import EventLog, single_events
 from runtime.executive.outcome import Event, EventKind, Outcome, Phase, Reason, ReasonKind
-from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, Value
+from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, TokenRecord, Value
 from runtime.user.constraint import Constraint
 
 _FEWEST = 64  # tokens of a record for which tables are worth their cost
@@ -53,7 +53,7 @@ def judge_mission(
 ) -> JudgeReport:
     """Judge everything that the models say of an executed mission; programs are in the order of the reactors."""
     chance = Chance(agent, tuple(programs), outcome.seed, overrides or {})
-    by_name = {each.reactor: each for each in record.reactors}
+    by_name = {each.reactor: each for each in few_listed(record).reactors}
     events = single_events(outcome.events)
     failed = {event.reactor for event in events if event.kind in (EventKind.KILL, EventKind.ABORT)}
     repaired = {event.reactor: event.tick for event in events if event.kind is EventKind.RELAX}
@@ -64,8 +64,6 @@ def judge_mission(
         if written is None:
             continue
         tables = Tables(written) if len(written.tokens) >= _FEWEST else None
-        if tables is None:
-            written = written._replace(tokens=tuple(written.tokens))
         judge = _judge_of(program, constraints)
         bench = Bench(written, agent.final_tick, chance.draws, configuration.name in failed)
         bench.last_repair = repaired.get(configuration.name, -1)
@@ -76,6 +74,17 @@ def judge_mission(
         )
     judge_goals(agent, outcome, events, desks)
     return _summary([bench for _, bench in desks.values()])
+
+
+def few_listed(record: MissionRecord) -> MissionRecord:
+    """The record, columns of few tokens as a tuple of them, which is sooner read than tables."""
+    return MissionRecord(
+        tuple([one._replace(tokens=tuple(one.tokens)) if _is_few(one.tokens) else one for one in record.reactors])
+    )
+
+
+def _is_few(tokens: Sequence[TokenRecord]) -> bool:
+    return len(tokens) < _FEWEST and not isinstance(tokens, tuple)
 
 
 def breaches(report: JudgeReport) -> tuple[Reason, ...]:

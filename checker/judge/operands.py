@@ -64,6 +64,7 @@ class VariableNames:
         self.clock = next((k for k, (name, _) in enumerate(program.globals) if name == "AGENT_CLOCK"), -1)
         self.locals: dict[int, str] = {}
         self.tokens: dict[int, tuple[str, str]] = {}  # slot -> label and predicate
+        self._kinds: dict[tuple[str, str], bool] = {}
 
     def of(self, operand: Operand) -> str:
         """The name of an operand as the modeler wrote it; empty for constants and parts of expressions."""
@@ -87,12 +88,14 @@ class VariableNames:
 
     def is_kind_of(self, class_name: str, other: str) -> bool:
         """Whether a class is, or extends, another."""
-        found: str | None = class_name
-        while found is not None and found in self.classes:
-            if found == other:
-                return True
-            found = self.classes[found].base
-        return found == other
+        if class_name == other:
+            return True
+        pair = (class_name, other)
+        known = self._kinds.get(pair)
+        if known is None:
+            base = self.classes[class_name].base if class_name in self.classes else None
+            known = self._kinds[pair] = base is not None and self.is_kind_of(base, other)
+        return known
 
 
 def domain_value(domain: DomainConstant) -> Value:

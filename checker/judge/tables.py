@@ -10,7 +10,7 @@ import numpy as np
 from checker.judge.alike import SymbolNumbers
 from checker.judge.columns import INT, TEXT, Array, Column, Mask, Texts, column_of, distinct, joined
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START
-from runtime.executive.columns import ORIGINS, StoredValues, TokenColumns, ValueColumn
+from runtime.executive.columns import ORIGINS, TokenColumns, table_of, value_column
 from runtime.executive.record import NOBODY, ReactorRecord, TokenRecord
 
 _SPARSE = 4
@@ -21,27 +21,59 @@ _ACTIVE, _MERGED = 0, 1
 class _Stored:
     """Arguments of tokens of one predicate that the record keeps in a store; what has not begun has none."""
 
-    def __init__(self, tokens: TokenColumns, numbers: SymbolNumbers, predicate: int, rows: Array) -> None:
-        first = tokens.times.values.take(rows)
-        self.count = len(rows)
+    def __init__(self, store: Array, first: Array, kinds: tuple[str, ...], numbers: SymbolNumbers) -> None:
+        self.store = store
+        self.kinds = kinds
         self.numbers = numbers
         self.missing: Mask | None = None
-        if len(rows) and first.min() < 0:
+        if len(first) and first.min() < 0:
             self.missing = first < 0
             first = np.maximum(first, 0)
-        self.values = StoredValues(tokens.store, first, tokens.kinds[predicate])
-        self.columns: tuple[ValueColumn, ...] | None = None
+        self.first = first
+        self.before: _Stored | None = None  # arguments of tokens of which each but the first has one of these
+        self._table: Array | None = None
+
+    def is_followed(self, other: "_Stored") -> bool:
+        """Whether the others are these without the first, and one more."""
+        return self._table is not None and len(other.first) > 1 and np.array_equal(self.first[1:], other.first[:-1])
+
+    def _values(self, number: int) -> Array:
+        if self.before is not None:
+            last = self.store[self.first[-1] + number]
+            return np.append(self.before._values(number)[1:], last)
+        if self._table is None:
+            self._table = table_of(self.store, self.first, len(self.kinds))
+        found: Array = self._table[number]
+        return found
 
     def column(self, number: int) -> Column:
         """An argument, by the number of its parameter; bad where there is none."""
-        if not 0 <= number < len(self.values.kinds):
-            return _no_column(self.count)
-        if self.columns is None:
-            self.columns = self.values.columns()
-        column = self.numbers.column(self.columns[number])
+        if not 0 <= number < len(self.kinds):
+            return _no_column(len(self.first))
+        column = self.numbers.column(value_column(self._values(number), self.kinds[number]))
         if self.missing is not None:
             column.bad = self.missing if column.bad is None else self.missing | column.bad
         return column
+
+
+class _StoredReader:
+    """Reads stored arguments; what follows on the tokens that were read last is not gathered again."""
+
+    def __init__(self, tokens: TokenColumns, texts: Texts) -> None:
+        self.tokens = tokens
+        self.numbers = SymbolNumbers(tokens.symbols, texts)
+        self.last: dict[int, _Stored] = {}  # by predicate
+
+    def of(self, predicate: int, rows: Array) -> _Stored:
+        """The arguments of tokens of one predicate."""
+        first = self.tokens.times.values.take(rows)
+        found = _Stored(self.tokens.store, first, self.tokens.kinds[predicate], self.numbers)
+        known = self.last.get(predicate)
+        if known is not None and known.is_followed(found):
+            found.before = known
+        else:
+            self.last[predicate] = found
+        return found
 
 
 def _no_column(count: int) -> Column:
@@ -109,8 +141,7 @@ class Tables:
             self._rows[self.keys] = np.arange(self.count)
         self.standing = self._standing()
         if isinstance(record.tokens, TokenColumns):
-            stored, numbers = record.tokens, SymbolNumbers(record.tokens.symbols, self.texts)
-            self.arguments: _Reader = lambda predicate, rows: _Stored(stored, numbers, predicate, rows)
+            self.arguments: _Reader = _StoredReader(record.tokens, self.texts).of
         else:
             own = np.where(self.standing == np.arange(self.count), self.predicate, NOBODY)
             self.arguments = _Listed(record.tokens, own, self.texts).of

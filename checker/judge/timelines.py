@@ -79,7 +79,8 @@ def judge_timelines(
         if timeline not in told:
             tokens = found.get(timeline, [])
             records = [tok.record for tok in tokens]
-            count = count_held(records, past[timeline], bench.last_tick, judge.codes, timeline in internal)
+            seen = None if timeline in internal else _observed(bench, timeline)
+            count = count_held(records, past[timeline], bench.last_tick, judge.codes, seen)
             if count >= 0:
                 bench.judged += count
                 continue

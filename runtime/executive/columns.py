@@ -36,7 +36,7 @@ class ShownValues(NamedTuple):
             return []
         least = min(self.offsets)
         table = table_of(self.store, self.first[begin:end] + least, max(self.offsets) - least + 1)
-        return [_value_column(table[at - least], kind) for at, kind in zip(self.offsets, self.kinds, strict=True)]
+        return [value_column(table[at - least], kind) for at, kind in zip(self.offsets, self.kinds, strict=True)]
 
 
 class StoredValues(NamedTuple):
@@ -49,7 +49,7 @@ class StoredValues(NamedTuple):
     def columns(self) -> tuple[ValueColumn, ...]:
         """The values of all rows."""
         table = table_of(self.store, self.first, len(self.kinds))
-        return tuple([_value_column(numbers, kind) for numbers, kind in zip(table, self.kinds, strict=True)])
+        return tuple([value_column(numbers, kind) for numbers, kind in zip(table, self.kinds, strict=True)])
 
 
 def table_of(store: Array, first: Array, width: int) -> Array:
@@ -189,7 +189,7 @@ class TokenColumns(Sequence[TokenRecord]):
         return hash(tuple(self))
 
 
-def _value_column(numbers: Array, kind: str) -> ValueColumn:
+def value_column(numbers: Array, kind: str) -> ValueColumn:
     """The column of numbers as registers hold them."""
     has_open = bool(np.isnan(numbers.sum())) and bool(np.isnan(numbers).any())
     name = kind if kind in ("int", "bool", "float") else "name"

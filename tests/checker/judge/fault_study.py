@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 
+import runtime.build_form
 from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
 from checker.judge.values import may_be_equal

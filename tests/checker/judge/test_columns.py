@@ -16,7 +16,7 @@ from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
 from runtime.executive.columns import TokenColumns
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.mission import record_mission
+from runtime.executive.mission import MissionPrograms, record_mission
 from runtime.executive.outcome import Outcome
 from runtime.executive.record import MissionRecord, TokenRecord
 
@@ -25,6 +25,7 @@ class Flown(NamedTuple):
     """A mission that was flown; program and machine of its simulator, and the tick up to which it was recorded."""
 
     agent: AgentConfiguration
+    programs: MissionPrograms
     outcome: Outcome
     record: MissionRecord
     simulator: tuple[RegisterProgram, Machine, int]
@@ -45,15 +46,16 @@ def fly(monkeypatch: pytest.MonkeyPatch) -> Flown:
     monkeypatch.setattr("runtime.determined.reactor.expand", catching)
     mission, _ = read_mission(INL)
     assert mission is not None
-    outcome, record = record_mission(mission.agent, programs_of(mission.agent), 3, until=400)
-    return Flown(mission.agent, outcome, record, *caught)
+    programs = programs_of(mission.agent)
+    outcome, record = record_mission(mission.agent, programs, 3, until=400)
+    return Flown(mission.agent, programs, outcome, record, *caught)
 
 
 def judged(flown: Flown, tokens: Sequence[TokenRecord]) -> JudgeReport:
     """The report on a mission whose simulator did what `tokens` say."""
     mission, navigator, simulator = flown.record.reactors
     record = MissionRecord((mission, navigator, simulator._replace(tokens=tokens)))
-    return judge_mission(flown.agent, programs_of(flown.agent).programs, flown.outcome, record)
+    return judge_mission(flown.agent, flown.programs.programs, flown.outcome, record)
 
 
 def test_a_right_mission_is_judged_alike(flown: Flown) -> None:
