@@ -41,6 +41,15 @@ class Written(External):
         return f"the constraint `{self.name}`{'' if place is None else f', called at {place},'}"
 
     @property
+    def source(self) -> tuple[str, int]:
+        """The file in which it is written, and the line that judges values; an empty name where there is no file."""
+        compute = getattr(self.constraint, "compute", None)
+        step = "holds" if has_test(self.constraint) else "propagate"
+        code = getattr(compute, "__code__", None)
+        line = _line_of(self.constraint, step) if code is None else int(code.co_firstlineno)
+        return next(iter(reversed(self.files)), ""), line
+
+    @property
     def files(self) -> tuple[str, ...]:
         """The file in which it is written."""
         return _files_of(self.constraint)

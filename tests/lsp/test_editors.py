@@ -76,11 +76,17 @@ def test_other_editors_know_the_same_words(name: str) -> None:
     assert [word for word in sorted(RESERVED) if word not in found] == []
 
 
-@pytest.mark.parametrize("name", ["helix/languages.toml"])
-def test_settings_for_other_editors_can_be_read(name: str) -> None:
-    settings = tomllib.loads((VSCODE.parent / name).read_text(encoding="utf-8"))
-    assert settings["language-server"]["nddlc"]["args"] == ["lsp"]
-    assert json.loads((VSCODE.parent / "zed/settings.json").read_text())["lsp"]["clangd"]["binary"]["path"] == "nddlc"
+def test_helix_and_zed_start_the_server_and_find_the_grammar() -> None:
+    editors = VSCODE.parent
+    helix = tomllib.loads((editors / "helix/languages.toml").read_text(encoding="utf-8"))
+    assert helix["language-server"]["nddlc"]["args"] == ["lsp"]
+    extension = tomllib.loads((editors / "zed/extension.toml").read_text(encoding="utf-8"))
+    language = tomllib.loads((editors / "zed/languages/nddl/config.toml").read_text(encoding="utf-8"))
+    assert language["name"] in extension["language_servers"]["nddlc"]["languages"]
+    assert language["grammar"] in extension["grammars"] and language["grammar"] == helix["grammar"][0]["name"]
+    folder = extension["grammars"]["nddl"]["path"]
+    assert helix["grammar"][0]["source"]["path"].endswith(folder)
+    assert (editors.parent / folder / "src" / "parser.c").is_file()
 
 
 @pytest.mark.skipif(not (VSCODE / "node_modules").is_dir(), reason="`make vsix` fetches the tools")

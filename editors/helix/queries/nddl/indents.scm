@@ -1,0 +1,7 @@
+[
+  (block)
+  (enum)
+  (arguments)
+] @indent
+
+["}" ")"] @outdent

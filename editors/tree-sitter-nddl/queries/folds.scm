@@ -1,0 +1,5 @@
+[
+  (block)
+  (enum)
+  (comment)
+] @fold

@@ -1,0 +1,3 @@
+(block "}" @end) @indent
+(enum "}" @end) @indent
+(arguments ")" @end) @indent
