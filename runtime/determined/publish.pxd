@@ -8,6 +8,9 @@ from runtime.determined.machine cimport Machine
 cdef long long BLOCK, EVENT, FAR, KIND, LINE, ROW, VALUES, WISHED, _NOTHING
 
 
+cpdef long long row_key(long long tick) except? -1
+
+
 cdef class Samples:
     cdef public list parameters
     cdef public object drawn

@@ -49,6 +49,11 @@ class Samples:
         return True
 
 
+def row_key(tick: int) -> int:
+    """The key under which a row of the log, begun at `tick`, is published: no token of a general reactor has it."""
+    return -2 - tick
+
+
 class Publisher:
     """Tells the log of one reactor, each row once."""
 
@@ -113,7 +118,7 @@ class Publisher:
             self.program.all_names()  # brings them up to date
         arguments = arguments_at(shapes, self.names, log, log.rows[at + VALUES])
         name, short, tick = self.line_names[log.rows[at + LINE]], self.short_names[predicate], log.rows[at]
-        told = (tick, name, short, arguments, log.rows[at + EVENT], self.name, row, tick)
+        told = (tick, name, short, arguments, log.rows[at + EVENT], self.name, row, row_key(tick))
         return make_tuple(Observation, told)
 
     def _tell_tick(self, tick: int) -> None:

@@ -11,7 +11,7 @@ from runtime.determined.asking import Ask, ask, ask_instead
 from runtime.determined.expand import expand, record_of
 from runtime.determined.inputs import Inputs, ShadowReactor, take_over
 from runtime.determined.loading import RegisterProgram
-from runtime.determined.publish import Publisher, Samples, Wish
+from runtime.determined.publish import Publisher, Samples, Wish, row_key
 from runtime.determined.tags import FAR, LINE, NONE, ROW, STOPS
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.messages import Observation, Request
@@ -371,10 +371,12 @@ class DeterminedReactor(TeleoReactor):
 
     def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
         """What sets the end of a token that was published: asked of a general reactor, as this one has no causes."""
+        if key >= 0:  # it became a general reactor before it published that
+            return None if self.general is None else self.general.why_it_lasts(token, key)
         general = self.general or self._asked()
         log = self.machine.log
-        if 0 <= token < log.row_count and log.rows[ROW * token] == key:
+        if 0 <= token < log.row_count and row_key(int(log.rows[ROW * token])) == key:
             line = general.by_name[self.program.model.lines[int(log.rows[ROW * token + LINE])].name]
-            if line.current >= 0 and general.bench.started_at(line.current) == key:
+            if line.current >= 0 and row_key(int(general.bench.started_at(line.current))) == key:
                 return latest(general.bench, general.bench.end(line.current))
-        return self.general.why_it_lasts(token, key) if self.general is not None else None
+        return None

@@ -178,7 +178,7 @@ class PlanView:
 
     def is_alive(self, t: int, key: int) -> bool:
         """Whether `t` still is the token that had `key`."""
-        return bool(t < len(self.rows.status) and self.rows.status[t] != FREED and self.rows.key[t] == key)
+        return bool(0 <= t < self.rows.token_count and self.rows.status[t] != FREED and self.rows.key[t] == key)
 
     def is_freed(self, t: int) -> bool:
         """Whether the row is empty."""

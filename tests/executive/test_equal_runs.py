@@ -5,20 +5,20 @@ import subprocess
 import sys
 from dataclasses import replace
 from functools import lru_cache
+from hashlib import sha256
 from pathlib import Path
 
 import pytest
 
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.pinned import programs_of
 from checker.proofs.conflict import Finding, confirm
 from checker.sampling.seeds import mission_seed
-from compiler.lower import compile_model
-from nddl_lang.analysis import analyse_file
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ParameterConfiguration
 from runtime.executive.mission import MissionPrograms, run_mission
 from runtime.executive.outcome import Outcome
-from runtime.solver.configuration.configuration import default_configuration
+from runtime.executive.rendering import trace_json
 from tests.executive.flying import fly, lines, planner, simulator
 
 FOLDER = Path(__file__).resolve().parents[2]
@@ -91,20 +91,60 @@ def test_visiting_every_tick_changes_nothing() -> None:
         assert visited == toy(seed)
 
 
+SHIPPED = ("gps", "auv/inl", "auv/front")
+RUNS = 10  # in each of two processes
+UNTIL = 1500
+
+
 @lru_cache(maxsize=1)
-def gps() -> tuple[AgentConfiguration, MissionPrograms]:
-    """The mission of models/gps."""
-    mission, _ = read_mission(FOLDER / "models/gps/mission.toml")
+def shipped(folder: str) -> tuple[AgentConfiguration, MissionPrograms]:
+    """A mission of models/."""
+    mission, _ = read_mission(FOLDER / "models" / folder / "mission.toml")
     assert mission is not None
     agent = load_models(mission).agent
-    programs = tuple(compile_model(analyse_file(Path(agent.root) / reactor.model)) for reactor in agent.reactors)
-    return agent, MissionPrograms(programs, tuple(default_configuration() for _ in programs))
+    return agent, programs_of(agent)
+
+
+def digests(folder: str, runs: int) -> list[str]:
+    """Of the traces of one mission, flown again and again with another one in between."""
+    found = []
+    agent, programs = shipped(folder)
+    for number in range(runs):
+        trace = run_mission(agent, programs, mission_seed(7234, 1), until=UNTIL).events
+        found.append(sha256("\n".join(map(trace_json, trace)).encode()).hexdigest())
+        run_mission(agent, programs, number, until=UNTIL // 4)
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.once
+@pytest.mark.parametrize("folder", SHIPPED)
+def test_twenty_runs_of_a_shipped_mission_have_one_trace_in_any_process_and_folder(folder: str, tmp_path: Path) -> None:
+    code = f"from tests.executive.test_equal_runs import digests; print(*digests({folder!r}, {RUNS}))"
+    told: list[str] = []
+    for hash_seed, place in (("1", tmp_path), ("2", FOLDER)):
+        environment = {**os.environ, "PYTHONHASHSEED": hash_seed, "PYTHONPATH": str(FOLDER)}
+        command = [sys.executable, "-c", f"import runtime.build_form; {code}"]
+        done = subprocess.run(command, env=environment, cwd=place, capture_output=True, text=True, check=True)
+        told += done.stdout.split()
+    assert len(told) == 2 * RUNS
+    assert set(told) == set(digests(folder, 1))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("folder", SHIPPED)
+def test_visiting_every_tick_of_a_shipped_mission_changes_nothing(folder: str) -> None:
+    agent, programs = shipped(folder)
+    seed = mission_seed(7234, 3)
+    visited = run_mission(agent, programs, seed, every_tick=True, until=UNTIL // 3)
+    assert visited == run_mission(agent, programs, seed, until=UNTIL // 3)
+    assert len(visited.events) > 20
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("number", [0, 16])
 def test_visiting_every_tick_of_a_real_mission_changes_nothing(number: int) -> None:
-    agent, programs = gps()
+    agent, programs = shipped("gps")
     seed = mission_seed(7234, number)
     assert run_mission(agent, programs, seed, every_tick=True) == run_mission(agent, programs, seed)
 
@@ -112,7 +152,7 @@ def test_visiting_every_tick_of_a_real_mission_changes_nothing(number: int) -> N
 @pytest.mark.slow
 @pytest.mark.parametrize("number", range(3))
 def test_z3_agrees_that_a_failing_mission_cannot_go_on(number: int) -> None:
-    agent, programs = gps()
+    agent, programs = shipped("gps")
     seed = mission_seed(7234, number)
     outcome = run_mission(replace(agent, final_tick=420), programs, seed, {"GPS_HIT_RATE": 3.9 + number / 30})
     assert outcome.abort is not None and outcome.abort.conflict is not None

@@ -6,13 +6,17 @@ import pytest
 
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.mutation.variant import load_over
 from checker.pinned import programs_of
+from nddl_lang.text.read import real_path
+from runtime.determined.publish import row_key
 from runtime.determined.reactor import DeterminedReactor
 from runtime.executive import mission
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.rendering import trace_line
 
-GPS = Path(__file__).parents[2] / "models" / "gps" / "mission.toml"
+MODELS = Path(__file__).parents[2] / "models"
+GPS = MODELS / "gps" / "mission.toml"
 MADE: list[DeterminedReactor] = []
 VISITS: list[int] = []
 
@@ -67,3 +71,33 @@ def test_it_lives_through_each_tick_once(flown: DeterminedReactor) -> None:
     told(flown, list(range(0, last, 7)))
     assert len(VISITS) > 3
     assert sorted(set(VISITS)) == VISITS
+
+
+def test_what_it_never_published_has_no_causes(flown: DeterminedReactor) -> None:
+    for general in (None, flown._new_shadow().reactor):
+        flown.general = general
+        for token, key in ((10**6, row_key(3)), (10**6, 3), (-1, 3), (-1, row_key(0)), (-1, -1)):
+            assert flown.why_it_lasts(token, key) is None
+
+
+def test_its_own_tokens_are_not_those_of_the_general_reactor(flown: DeterminedReactor) -> None:
+    flown.general = general = flown._asked()
+    bench = general.bench
+    current = [line.current for line in general.by_name.values() if line.is_internal and line.current >= 0]
+    lasting = [t for t in current if flown.why_it_lasts(t, bench.key(t)) is not None]
+    assert lasting
+    assert all(flown.why_it_lasts(t, row_key(bench.key(t) + 10**6)) is None for t in lasting)
+
+
+def test_an_abort_that_hangs_on_what_was_published_before_the_general_reactor_took_over_is_told() -> None:
+    mission_file, _ = read_mission(MODELS / "auv/inl/mission.toml")
+    assert mission_file is not None
+    file = real_path(MODELS / "auv/common/navigator.nddl")
+    text = file.read_text()
+    right = "Gps::Fix {\n    duration == 1;"
+    assert right in text
+    fly = load_over(((str(file), text.replace(right, right.replace("1", "2"))),), load_models(mission_file).agent)
+    outcome = fly(1)
+    assert outcome.abort is not None and outcome.abort.code == "F2"
+    assert outcome.abort.conflict is not None
+    assert any("duration == 2" in one.place.text for one in outcome.abort.conflict.elements if one.place)
