@@ -11,7 +11,7 @@ from collections.abc import Container, Iterator, Sequence
 
 from checker.mutation.edits import EditSite
 
-Name = tuple[str, str]  # a rule and a variable, or "" and a constant
+_Name = tuple[str, str]  # a rule and a variable, or "" and a constant
 _TERM = re.compile(r"([-+*/(]?)\s*\(?\s*([A-Za-z_]\w*(?:\.\w+)*|\d[\d.]*)(?!\w*\s*\()")
 _SET = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==([^<>=!&|?]+);", re.DOTALL)
 _SUM = re.compile(r"([^<>=!&|?()]*[-+][^<>=!&|?()]*)==\s*([A-Za-z_][\w.]*)\s*;")
@@ -39,7 +39,7 @@ class Demands:
                 self._tokens[site.file, site.scope, child.group(3)] = made
                 if child.group(1) in _HOLDING:
                     holding.add(site.rule)
-        self._wanted: dict[Name, set[int]] = defaultdict(set)
+        self._wanted: dict[_Name, set[int]] = defaultdict(set)
         for site in sites:
             for name, way in self._limits(site):
                 self._wanted[name].add(way)
@@ -63,7 +63,7 @@ class Demands:
         signs = [sign for sign, _, at in _terms(found.group(2)) if found.start(2) + at == offset]
         return signs[0] * next(iter(ways)) if signs else 0
 
-    def _follow(self, lines: Sequence[tuple[Name, list[tuple[int, Name]]]]) -> None:
+    def _follow(self, lines: Sequence[tuple[_Name, list[tuple[int, _Name]]]]) -> None:
         """Carry what is wanted of each variable to those that it is set from, until nothing changes."""
         changed = True
         while changed:
@@ -74,7 +74,7 @@ class Demands:
                     self._wanted[name] |= new
                     changed = changed or bool(new)
 
-    def _equation(self, site: EditSite) -> tuple[Name, list[tuple[int, Name]]] | None:
+    def _equation(self, site: EditSite) -> tuple[_Name, list[tuple[int, _Name]]] | None:
         """A variable and what it is set from, each with the sign that it has in it."""
         if not site.rule:
             return None
@@ -97,7 +97,7 @@ class Demands:
                 return target, [(way, self._name(site, found.group(2))), *others]
         return None
 
-    def _limits(self, site: EditSite) -> Iterator[tuple[Name, int]]:
+    def _limits(self, site: EditSite) -> Iterator[tuple[_Name, int]]:
         found = _LIMIT.fullmatch(site.text)
         if found is None or not site.rule:
             return
@@ -107,7 +107,7 @@ class Demands:
                 if not text[0].isdigit():
                     yield self._name(site, text), sign * way
 
-    def _name(self, site: EditSite, path: str) -> Name:
+    def _name(self, site: EditSite, path: str) -> _Name:
         label, _, last = path.rpartition(".")
         if not label:
             return ("", path) if path in self._constants else (site.rule, path)
