@@ -19,6 +19,7 @@ _LIMIT = re.compile(r"([^<>=!&|?]+)(<=|<|>=|>)([^<>=!&|?]+);", re.DOTALL)
 _TERNARY = re.compile(r"\s*(?:mulEq|addEq)\s*\(\s*([\w.]+)\s*,\s*([\w.]+)\s*,\s*([\w.]+)\s*\)\s*;")
 _CHILD = re.compile(r"\s*(\w+)\s*\(\s*([\w.]+)\s+(\w+)\s*\)")
 _DURATION = "duration"
+_TIMES = (_DURATION, "start", "end")
 _HOLDING = ("contains", "starts_before_end", "contains_start", "contains_end")
 _OWN = "object"
 
@@ -104,8 +105,9 @@ class Demands:
         is_most = found.group(2)[0] == "<"
         for side, way in ((found.group(1), -1 if is_most else 1), (found.group(3), 1 if is_most else -1)):
             for sign, text, _ in _terms(side):
-                if not text[0].isdigit():
-                    yield self._name(site, text), sign * way
+                name = self._name(site, text)
+                if not text[0].isdigit() and (not name[0] or name[1] in _TIMES):
+                    yield name, sign * way  # a variable that bounds a duration may be how long the world takes
 
     def _name(self, site: EditSite, path: str) -> _Name:
         label, _, last = path.rpartition(".")
