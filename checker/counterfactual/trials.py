@@ -333,7 +333,7 @@ class _Trials:
                 unhelped.append(mission)
         site = trial.candidate.site
         for other in alternatives(trial.edit, site, usage) if unhelped else ():
-            if not self.may_go_on() or self.fly(other, unhelped[0]).verdict is not Verdict.PASS:
+            if not self.may_go_on(1) or self.fly(other, unhelped[0]).verdict is not Verdict.PASS:
                 continue
             again = self.fly(other, first)
             if again.verdict is Verdict.PASS:
