@@ -9,6 +9,7 @@ from pathlib import Path
 from signal import Signals
 
 from checker.batch.identity import engine_digest, model_digest, run_id
+from checker.batch.interruption import uninterrupted
 from checker.batch.pool import Batch, FlyBatch, fly_all, nothing_more
 from checker.batch.process import Flyer
 from checker.batch.progress import Progress
@@ -21,6 +22,7 @@ from checker.contrast import Contrast, find_contrast
 from checker.counterfactual.search import CauseSearch, Suspended
 from checker.counterfactual.trials import Bounds
 from checker.drawn import Drawn, drawn_paths
+from checker.faults import Interruptible
 from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
@@ -152,12 +154,13 @@ class Campaign:
         conditions: Conditions | None = None,
         cases: tuple[FlownCase, ...] = (),
         progress: Callable[[int], None] | None = None,
+        let: Interruptible = uninterrupted,
     ) -> Findings:
         """Judge the results; with `may_fly` conditions are sought and tested by flights, which `progress` counts.
 
         Lines that may be the cause of a fault are tried within `bounds`, for all faults together no longer than
         `seconds`. With a `focus` all that is done only for the fault that mission `focus` belongs to. Of `conditions`
-        are those that are known already.
+        are those that are known already. `let` carries out each search, and ends it where a signal comes.
         """
         run, agent = self.run, self.models.agent
         is_flying = may_fly and ending is not Ending.SIGNAL
@@ -168,7 +171,7 @@ class Campaign:
                 changed = with_point(changed, points.get(number, RANDOM_POINT))
                 return self.judged(flyer.fly(changed, number, seed))
 
-            return assess(
+            findings = assess(
                 self.mission,
                 agent,
                 run.id,
@@ -183,7 +186,11 @@ class Campaign:
                 cases=cases,
                 sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),
                 seeker=self._seeker(flyer, bounds, seconds) if is_flying and bounds is not None else None,
+                let=let,
             )
+            if findings.is_cut:
+                flyer.dismiss()  # it may be in the middle of a flight
+            return findings
 
     def contrast(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Contrast | None:
         """What sets a failed mission apart from the nearest one that passes; flown in this process."""
@@ -218,7 +225,7 @@ class Campaign:
             for fault in findings.faults[:_MOST_PAIRS]:
                 example = by_number[fault.bucket.example]
                 near = _nearest_passing(example, findings)
-                if near is None or example.outcome is None or findings.is_interrupted:
+                if near is None or example.outcome is None or findings.is_interrupted or findings.is_cut:
                     found.append(None)
                     continue
                 agent = with_point(self.models.agent, near.point)
@@ -229,7 +236,7 @@ class Campaign:
     def drawn(self, findings: Findings, pairs: Sequence[Pair | None]) -> Drawn | None:
         """The paths that the mission file asks figures of."""
         figures = self.mission.figures
-        if figures is None or findings.is_interrupted:
+        if figures is None or findings.is_interrupted or findings.is_cut:
             return None
         agent = self.models.agent
         with Flyer(self.load, agent, self.mission.check.time_limit) as flyer:

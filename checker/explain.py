@@ -156,5 +156,15 @@ def confirmation_data(found: Confirmation | None) -> dict[str, Any] | None:
         "core": list(found.core),
         "minimal": found.is_minimal,
         "from_text": found.written,
+        "called": [
+            {
+                "constraint": one.name,
+                "file": one.file,
+                "line": one.line,
+                "calls": one.calls,
+                "refused": list(one.refused),
+            }
+            for one in found.called
+        ],
         "untranslated": list(found.untranslated),
     }

@@ -10,6 +10,7 @@ from checker.conditions.condition import Condition
 from checker.conditions.rendering import literal_text
 from checker.losses import Exceeded, Limit
 from checker.oracle import CODE_NAMES, Judgement
+from checker.proofs.called import Called
 from checker.proofs.conflict import Confirmation, Finding
 from checker.sampling.rendering import describe, number
 from checker.story import Step, StepKind, Story
@@ -159,6 +160,7 @@ def confirmation_text(found: Confirmation, condition: Condition | None = None) -
             text = f"confirms the conflict: its {len(found.core)} statements contradict each other"
             text += ", and none can be left out" if found.is_minimal else ""
             text += f" ({found.written} read from the model's text)" if found.written else ""
+            text += "".join(_called_text(one) for one in found.called)
             if condition is not None and condition.in_terms:
                 text += ", just where " + " and ".join(literal_text(one) for one in condition.in_terms)
         case Finding.REFUTED:
@@ -167,6 +169,13 @@ def confirmation_text(found: Confirmation, condition: Condition | None = None) -
             text = "could not decide whether the statements of the conflict can hold together"
     missing = found.untranslated
     return text + (f" (not told to it: {', '.join(missing)})" if missing else "")
+
+
+def _called_text(one: Called) -> str:
+    """What is known of a constraint in Python, and by what."""
+    where = f" ({one.file}:{one.line})" if one.file else ""
+    refused = f", and refuses {', '.join(one.refused)}" if one.refused else ""
+    return f", but for `{one.name}`{where}, which is Python: it was called {one.calls} times{refused}"
 
 
 def event_line(event: Event) -> str:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
+from checker.batch.interruption import InterruptedSearch
 from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.counterfactual.candidates import Candidate, Suspicion
@@ -305,7 +306,11 @@ class _Trials:
         most = max(_SHARE * (self.bounds.seconds - (begun - self._begun)), _LEAST_SECONDS)
         if self._slowest is not None:
             most = min(most, max(_SLOW * self._slowest, _LEAST_SECONDS))
-        result = self._fly(edit, mission, most)
+        try:
+            result = self._fly(edit, mission, most)
+        except InterruptedSearch:
+            self.ended = TrialsEnd.CANCELLED
+            return replace(mission, judgement=replace(mission.judgement, verdict=Verdict.ERROR))
         if result.verdict is not Verdict.ERROR:
             self._slowest = max(self._slowest or 0.0, time.monotonic() - begun)
         return result

@@ -12,20 +12,29 @@ from itertools import pairwise
 
 import z3
 
+from checker.proofs.called import Asking, Called, Decider, Opaque
 from checker.proofs.claims import Claim, Number, bounds_claim, claim_of, member_claim
-from checker.proofs.instructions import assign_claim, domain_claim, object_claim, post_claim, relation_claim
-from checker.proofs.operands import BodyLayout, ProgramNames, Symbols, variable_name
+from checker.proofs.instructions import (
+    assign_claim,
+    domain_claim,
+    given_claim,
+    object_claim,
+    post_claim,
+    relation_claim,
+)
+from checker.proofs.levels import demand_claim, is_demand
+from checker.proofs.operands import Symbols
 from checker.proofs.places import ModelText, WrittenLine
+from checker.proofs.term_binding import TermBinding
 from compiler.program import (
     DURATION,
     END,
     START,
     Assign,
     Child,
-    LocalVariable,
     NewGlobal,
+    NewObject,
     NewVariable,
-    Operand,
     Post,
     Relate,
     Sample,
@@ -53,7 +62,8 @@ class Confirmation:
 
     That start + duration = end is what a token is, and in no core.
     `is_minimal`: each was shown to be needed; not so where z3 gave up. `written` counts the elements of the core whose
-    meaning was read off the model's text. `untranslated` names what z3 was not told.
+    meaning was read off the model's text. `called` are constraints in Python in the core: z3 knows of them only what
+    calls have shown. `untranslated` names what z3 was not told.
     """
 
     finding: Finding
@@ -61,6 +71,7 @@ class Confirmation:
     untranslated: tuple[str, ...]
     is_minimal: bool = True
     written: int = 0
+    called: tuple[Called, ...] = ()
 
 
 def confirm(conflict: Conflict, text: ModelText | None = None, effort: int = EFFORT) -> Confirmation:
@@ -72,12 +83,17 @@ def confirm(conflict: Conflict, text: ModelText | None = None, effort: int = EFF
     untranslated: list[str] = []
     needed: list[int] = []
     written: set[int] = set()
+    opaque: dict[int, Opaque] = {}
     for number, element in enumerate(conflict.elements):
         if _is_duration(element):
             continue  # what a token is
         claim = reader.written(element)
         if claim is not None:
             written.add(number)
+        elif (asked := reader.opaque(element, marks[number])) is not None:
+            opaque[number] = asked
+            needed.append(number)
+            continue
         claims = reader.told(element, untranslated) if claim is None else [(claim, frozenset())]
         for each, limits in claims:
             # That a token lasts as long as lines let it says nothing without these lines.
@@ -88,11 +104,13 @@ def confirm(conflict: Conflict, text: ModelText | None = None, effort: int = EFF
             needed.append(number)
     solver.add(*reader.definitions(conflict))
     missing = tuple(dict.fromkeys(untranslated))
-    answer = solver.check(*[marks[number] for number in needed])
+    asking = Asking(solver, list(opaque.values()))
+    answer = asking.check(*[marks[number] for number in needed])
     if answer != z3.unsat:
         return Confirmation(Finding.REFUTED if answer == z3.sat else Finding.UNKNOWN, (), missing)
-    core, is_minimal = minimal_core(solver, marks, needed)
-    return Confirmation(Finding.CONFIRMED, core, missing, is_minimal, len(written.intersection(core)))
+    core, is_minimal = minimal_core(asking, marks, needed)
+    called = tuple(dict.fromkeys(opaque[number].called for number in core if number in opaque))
+    return Confirmation(Finding.CONFIRMED, core, missing, is_minimal, len(written.intersection(core)), called)
 
 
 def needed_elements(conflict: Conflict, found: Confirmation) -> tuple[int, ...]:
@@ -102,7 +120,7 @@ def needed_elements(conflict: Conflict, found: Confirmation) -> tuple[int, ...]:
     return found.core
 
 
-def minimal_core(solver: z3.Solver, marks: Sequence[z3.BoolRef], needed: Sequence[int]) -> tuple[tuple[int, ...], bool]:
+def minimal_core(solver: Decider, marks: Sequence[z3.BoolRef], needed: Sequence[int]) -> tuple[tuple[int, ...], bool]:
     """Drop one after the other, the first first, while the rest still contradicts itself (deletion-based MUS).
 
     `solver` has just found that all marks together cannot hold. The second value tells whether each of what is left
@@ -153,7 +171,7 @@ class _Reader:
         self, line: WrittenLine, term: Term, variables: Sequence[VariableName], own: TokenName | None, reactor: str
     ) -> Claim | None:
         instruction = line.instruction
-        binding = _TermBinding(line, self.symbols, variables, own, reactor)
+        binding = TermBinding(line, self.symbols, variables, own, reactor)
         match instruction:
             case Child() | Relate() if term.name == "precedence":
                 return relation_claim(instruction, binding)
@@ -172,11 +190,23 @@ class _Reader:
                 return None if post_claim(post, binding) is None else binding.last == value
             case NewGlobal(domain=domain) if term.name == "bounds" and domain is not None:
                 return self.symbols.within(self.number(term.arguments[0]), domain)
+            case NewObject() if term.name == "bounds":
+                return given_claim(instruction, variables[0].name, self.number(variables[0]), binding)
             case NewVariable(name=str()) if term.name == "bounds":
                 local = binding.local(instruction.slot)
                 return None if local is None else domain_claim(instruction, local, binding)
             case _:
                 return None
+
+    def opaque(self, element: ConflictElement, mark: Claim) -> Opaque | None:
+        """The constraint in Python that an element is, if it does not say the same in built-in ones."""
+        if self.text is None or element.kind is not ElementKind.CONSTRAINT or len(element.terms) != 1:
+            return None
+        (term,) = element.terms
+        constraint = self.text.constraint(term.name)
+        if constraint is None:
+            return None
+        return Opaque(constraint, mark, term.arguments, [self.number(one) for one in term.arguments], self.symbols)
 
     # ---- what the flight says ----
 
@@ -184,6 +214,8 @@ class _Reader:
         """What an element says by itself, where no line does; each with the limits that it uses up, if it does."""
         found = []
         terms = element.terms
+        if is_demand(terms):
+            return [(demand_claim(terms, self.number), frozenset())]
         latest = [number for number, term in enumerate(terms) if term.name == "latest"]
         for number, term in enumerate(terms[: latest[0]] if latest else terms):
             claim = self._term(term)
@@ -223,7 +255,18 @@ class _Reader:
         named = conflict.variables
         found = [z3.And(self.number(one) >= 0, self.number(one) <= 1) for one in named if one.kind == "bool"]
         owners = dict.fromkeys((one.reactor, one.token) for one in named if one.token is not None)
-        return found + [self._lasts(reactor, token) for reactor, token in owners]
+        for reactor, token in owners:
+            found.append(self._lasts(reactor, token))
+            if self._is_event(reactor, token):
+                names = (f"{reactor}:{token}.{name}" for name in ("time", "start", "end"))
+                found += [a == b for a, b in pairwise(self.symbols.variable(name, "int") for name in names)]
+        return found
+
+    def _is_event(self, reactor: str, token: TokenName) -> bool:
+        """Whether a token has one time only."""
+        program = self.text.programs.get(reactor) if self.text is not None else None
+        codes = program.predicates if program is not None else ()
+        return any(code.is_event for code in codes if code.name == token.predicate)
 
 
 def _is_duration(element: ConflictElement) -> bool:
@@ -267,86 +310,3 @@ def _is_of(post: Post, term: Term, is_aligned: bool) -> bool:
 def _is_temporal(post: Post) -> bool:
     points = (START, END, DURATION)
     return any(isinstance(each, TokenVariable) and each.variable in points for each in post.operands)
-
-
-class _TermBinding:
-    """What the slots of a body stand for, from the variables that the engine names in the line's term."""
-
-    def __init__(
-        self,
-        line: WrittenLine,
-        symbols: Symbols,
-        variables: Sequence[VariableName],
-        own: TokenName | None,
-        reactor: str,
-    ) -> None:
-        self.names: ProgramNames = line.names
-        self.symbols = symbols
-        self.layout: BodyLayout = line.layout
-        self.variables = variables
-        self.own = own
-        self.reactor = reactor
-        self.tokens: dict[int, TokenName] = {} if own is None else {0: own}
-        self.slots: dict[int, VariableName] = {}
-        self.fields: dict[int, VariableName] = {}
-        self.last: Number | None = None
-
-    def align(self, operands: Sequence[Operand], term: Term) -> bool:
-        """Take the variables of a term that has the operands' order for them; False where it has not."""
-        if len(operands) != len(term.arguments):
-            return False
-        for operand, named in zip(operands, term.arguments, strict=True):
-            if not isinstance(named, VariableName):
-                continue
-            match operand:
-                case TokenVariable(token=slot, variable=variable) if named.token is not None and not named.is_local:
-                    asked = self.layout.predicates.get(slot, "")
-                    if not self.names.fits(named.token.predicate, asked):
-                        return False
-                    if named.name != variable_name(asked, variable, self.names):
-                        return False
-                    if self.tokens.setdefault(slot, named.token) != named.token:
-                        return False
-                case LocalVariable(slot=slot):
-                    self.slots[slot] = named
-                case _:
-                    pass
-        return True
-
-    def token(self, slot: int) -> tuple[str, str] | None:
-        """The only token that the engine names and that fits the slot."""
-        known = self.tokens.get(slot)
-        if known is None:
-            asked = self.layout.predicates.get(slot)
-            named = {one.token for one in self.variables if one.token is not None and not one.is_local}
-            fitting = [
-                one
-                for one in sorted(named, key=str)
-                if asked is not None and one not in self.tokens.values() and self.names.fits(one.predicate, asked)
-            ]
-            if len(fitting) != 1:
-                return None
-            known = self.tokens[slot] = fitting[0]
-        return f"{self.reactor}:{known}", known.predicate
-
-    def local(self, slot: int) -> Number | None:
-        """A local by the name that the engine gives it, or the text."""
-        named, name = self.slots.get(slot), self.layout.locals.get(slot)
-        if named is not None:
-            self.last = self.symbols.variable(f"{named.reactor}:{named}", named.kind)
-            return self.last
-        if name is None or self.own is None:
-            return None
-        self.last = self.symbols.variable(f"{self.reactor}:{self.own}::{name}", self.layout.types[slot].kind)
-        return self.last
-
-    def world(self, index: int) -> Number | None:
-        """A global variable by its name."""
-        name, code = self.names.program.globals[index]
-        return self.symbols.variable(f"{self.reactor}:{name}", code.kind)
-
-    def member(self, base: Operand | None, members: Sequence[str]) -> Number | None:
-        """A member, where the engine names one that is called so."""
-        ends = "." + members[-1] if members else "."
-        found = [one for one in self.variables if one.token is None and one.name.endswith(ends)]
-        return self.symbols.variable(f"{self.reactor}:{found[0]}", found[0].kind) if len(found) == 1 else None

@@ -8,6 +8,7 @@ from checker.judge.relations import demands
 from checker.proofs.claims import Claim, Number, claim_of, is_silent
 from checker.proofs.operands import Binding, number, token_number
 from compiler.program import END, OBJECT, START, Assign, Child, NewObject, NewVariable, Operand, Post, Relate
+from nddl_lang.semantics.natives import NATIVE_CLASSES
 
 _POINTS = (START, END)
 
@@ -85,3 +86,12 @@ def domain_claim(new: NewVariable, target: Number, binding: Binding) -> Claim:
     if new.type.kind == "bool":
         parts.append(z3.And(target >= 0, target <= 1))
     return z3.And(*parts)
+
+
+def given_claim(new: NewObject, member: str, target: Number, binding: Binding) -> Claim | None:
+    """What making an object of a native class gives one of its members (`store.levelLimitMin`)."""
+    native = NATIVE_CLASSES.get(new.class_name)
+    names = [] if native is None else [one.name for one in native.constructors[new.constructor].parameters]
+    name = member.rpartition(".")[2]
+    given = new.arguments[names.index(name)] if name in names else None
+    return None if given is None or isinstance(given, NewObject) else _equality(target, given, binding)

@@ -57,6 +57,14 @@ class Symbols:
             return rational(value)
         return z3.IntVal(int(value)) if value == int(value) else rational(value)
 
+    def number(self, text: str) -> int | None:
+        """The number of a name; None if it was never spoken of."""
+        return self._numbers.get(text)
+
+    def text(self, number: int) -> str:
+        """The name that has a number; empty if none has."""
+        return next((text for text, one in self._numbers.items() if one == number), "")
+
     def variable(self, name: str, kind: str) -> Number:
         """The variable called `name`."""
         key = (name, kind == "float")

@@ -7,8 +7,12 @@ from pathlib import Path
 from checker.names import relative_name
 from checker.proofs.operands import BodyLayout, ProgramNames, all_instructions, layout_of, names_of
 from compiler.program import Instruction, Program
+from nddl_lang.semantics.constraints import CONSTRAINTS
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import SourcePlace
+from runtime.user.constraint import Constraint
+from runtime.user.library import load_library
+from runtime.user.limit import USUAL
 
 _Place = tuple[str, int, int, str]
 
@@ -26,15 +30,23 @@ class WrittenLine:
 def text_of(agent: AgentConfiguration, programs: Mapping[str, Program]) -> "ModelText":
     """The lines of an agent's models; `programs` by model path as the mission file has it."""
     known = {each.name: programs[each.model] for each in agent.reactors if each.model in programs}
-    return ModelText(known, Path(agent.root))
+    return ModelText(known, Path(agent.root), agent.constraints, agent.constraint_seconds)
 
 
 class ModelText:
-    """The programs of a mission's reactors, by the places of their lines; `root` is the mission's folder."""
+    """The programs of a mission's reactors, by the places of their lines; `root` is the mission's folder.
 
-    def __init__(self, programs: Mapping[str, Program], root: Path) -> None:
+    `modules` are the files with constraints in Python, of which a call may take so many `seconds`.
+    """
+
+    def __init__(
+        self, programs: Mapping[str, Program], root: Path, modules: tuple[str, ...] = (), seconds: float = USUAL
+    ) -> None:
         self.programs = programs
         self.root = root
+        self.modules = modules
+        self.seconds = seconds
+        self._constraints: dict[str, Constraint] | None = None
         self._lines: dict[str, dict[_Place, list[WrittenLine]]] = {}
         self._files: dict[str, str] = {}
 
@@ -49,6 +61,15 @@ class ModelText:
         for each in known.get((place.file, place.line, place.column, place.text), ()):
             if predicate in each.predicates if predicate else not each.predicates:
                 yield each
+
+    def constraint(self, name: str) -> Constraint | None:
+        """The constraint in Python that has a name; raises UserCodeError where its module cannot be loaded."""
+        if name in CONSTRAINTS:
+            return None
+        if self._constraints is None:
+            library = load_library(self.root, self.modules, seconds=self.seconds)
+            self._constraints = {each.name: each for each in library.constraints}
+        return self._constraints.get(name)
 
     def _index(self, program: Program) -> dict[_Place, list[WrittenLine]]:
         names = names_of(program)

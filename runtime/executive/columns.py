@@ -22,6 +22,23 @@ class ValueColumn(NamedTuple):
     has_open: bool
 
 
+class ShownValues(NamedTuple):
+    """Values of rows in one store, each some way behind the first of its row; read in parts."""
+
+    store: Array
+    first: Array
+    offsets: tuple[int, ...]
+    kinds: tuple[str, ...]
+
+    def part(self, begin: int, end: int) -> list[ValueColumn]:
+        """The values of the rows from one on to before another."""
+        if not self.offsets:
+            return []
+        least = min(self.offsets)
+        table = table_of(self.store, self.first[begin:end] + least, max(self.offsets) - least + 1)
+        return [_value_column(table[at - least], kind) for at, kind in zip(self.offsets, self.kinds, strict=True)]
+
+
 class StoredValues(NamedTuple):
     """Values of rows in one store: row by row side by side, the first of each row at `first`."""
 
@@ -32,7 +49,7 @@ class StoredValues(NamedTuple):
     def columns(self) -> tuple[ValueColumn, ...]:
         """The values of all rows."""
         table = table_of(self.store, self.first, len(self.kinds))
-        return tuple([value_column(numbers, kind) for numbers, kind in zip(table, self.kinds, strict=True)])
+        return tuple([_value_column(numbers, kind) for numbers, kind in zip(table, self.kinds, strict=True)])
 
 
 def table_of(store: Array, first: Array, width: int) -> Array:
@@ -57,7 +74,7 @@ class RunColumns(NamedTuple):
     """Runs of one rule; the keys of its children."""
 
     rule: int
-    locals: tuple[ValueColumn, ...]
+    locals: ShownValues
     children: tuple[Array, ...]
     guards: tuple[GuardColumns, ...]
 
@@ -172,7 +189,7 @@ class TokenColumns(Sequence[TokenRecord]):
         return hash(tuple(self))
 
 
-def value_column(numbers: Array, kind: str) -> ValueColumn:
+def _value_column(numbers: Array, kind: str) -> ValueColumn:
     """The column of numbers as registers hold them."""
     has_open = bool(np.isnan(numbers.sum())) and bool(np.isnan(numbers).any())
     name = kind if kind in ("int", "bool", "float") else "name"

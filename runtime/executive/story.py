@@ -2,7 +2,7 @@
 
 from math import inf
 
-from compiler.program import NewGlobal
+from compiler.program import NewGlobal, NewObject
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import (
     HALF_INF,
@@ -29,6 +29,7 @@ from runtime.executive.workbench import Workbench
 from runtime.plan.readout.names import TokenName, VariableName
 from runtime.plan.readout.statements import Argument, ResourceTerm, Term
 from runtime.plan.readout.terms import TermReader
+from runtime.plan.script.natives import FILLED
 from runtime.plan.tags import NONE, ROLE_INTERNAL, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.learning.attempts import CauseOrigin, FailedFlaw, FoundCause
 from runtime.solver.learning.failure_log import FailureLog
@@ -73,10 +74,10 @@ def latest(bench: Workbench, v: int) -> tuple[VariableName, Conflict]:
             tight += _used_up(element)
             reached += _reached(element)
     most = bench.engine.upper(v)
-    if tight:
+    if most >= HALF_INF:  # nothing ends it: it outlasts every tick
+        tight = [Term("bounds", (reader.name(v), HALF_INF, inf))]
+    elif tight:
         tight += reached
-    elif most >= HALF_INF:  # nothing ends it: it outlasts every tick
-        tight.append(Term("bounds", (reader.name(v), HALF_INF, inf)))
     else:  # something that is no difference ends it, such as `ceil`
         tight += [Term("latest", (reader.name(v), int(most))), *(one for each in elements for one in each.terms)]
     token = bench.name_of(bench.database.plan.variable_owner[v])
@@ -150,13 +151,17 @@ class _ElementReader(TermReader):
         return self._declared(found) if span == NONE and kind is ElementKind.DECLARATION else None
 
     def _declared(self, found: Term | ResourceTerm) -> SourcePlace | None:
-        """Where the global variable is declared whose value a term without a place of its own tells."""
+        """Where the global variable is declared, or the resource made, whose value a term without a place tells."""
         about = found.arguments[0] if isinstance(found, Term) and found.arguments else None
         if not isinstance(about, VariableName) or about.token is not None:
             return None
+        thing, _, member = about.name.rpartition(".")
         for made in self.database.program.script:
             if isinstance(made, NewGlobal) and made.name == about.name and made.domain is not None:
                 return _place_of(made.span)
+            if isinstance(made, NewObject) and made.name == thing and thing:
+                given = FILLED.get((made.class_name, len(made.arguments)), ())
+                return _place_of(made.span) if member in given else None
         return None
 
     def _asked(self, found: Term | ResourceTerm) -> SourcePlace | None:
@@ -234,12 +239,15 @@ class SearchLog:
         tried = [
             FailedChoice(
                 attempt.resolver,
-                Conflict(tuple(self._element(cause) for cause in attempt.causes)) if attempt.causes else None,
+                self._conflict((*attempt.causes, *attempt.told)),
                 None if attempt.dead_end is None else self._deadlock(attempt.dead_end),
             )
             for attempt in failed.attempts
         ]
         return Deadlock(failed.flaw, tried=tuple(tried))
+
+    def _conflict(self, causes: tuple[FoundCause, ...]) -> Conflict | None:
+        return Conflict(tuple(self._element(cause) for cause in causes)) if causes else None
 
     def _element(self, found: FoundCause) -> ConflictElement:
         kind = _element_kind(found.term, found.number, is_declared=found.origin is CauseOrigin.DECLARED)
@@ -256,7 +264,7 @@ def _element(
     terms: tuple[Term, ...],
 ) -> ConflictElement:
     """An element; `terms` where what it says must be taken apart."""
-    told = terms or ((Term("resource", (found.resource,)),) if isinstance(found, ResourceTerm) else (found,))
+    told = terms or (found.terms if isinstance(found, ResourceTerm) else (found,))
     return ConflictElement(kind, place, token.predicate if token is not None else "", token, found, told)
 
 

@@ -12,7 +12,8 @@ from checker.proofs.places import ModelText
 from runtime.executive.outcome import Conflict, ElementKind
 from tests.checker.mutant_conflicts import conflicts_of_mutants
 
-GPS = Path(__file__).parents[2] / "models" / "gps" / "mission.toml"
+ROOT = Path(__file__).parents[2]
+GPS = ROOT / "models" / "gps" / "mission.toml"
 # All 10^3 conflicts of the goal: NDDLC_PROOFS=1000.
 MOST = int(os.environ.get("NDDLC_PROOFS", "40"))
 
@@ -60,3 +61,38 @@ def test_the_text_counts_and_not_what_the_engine_says_of_it(conflicts: list[tupl
     lie = Conflict(tuple(elements))
     assert confirm(lie).finding is Finding.REFUTED
     assert confirm(lie, text).finding is Finding.CONFIRMED
+
+
+@pytest.mark.parametrize("model", ["models/templates/battery", "tests/checker/unseen/quay"])
+def test_conflicts_over_resources_are_confirmed_from_the_line_that_makes_them(model: str) -> None:
+    path = ROOT / model / "mission.toml"
+    found = [
+        (conflict, text)
+        for conflict, text in islice(conflicts_of_mutants(path, 12, 2), 24)
+        if any(one.kind is ElementKind.RESOURCE for one in conflict.elements)
+    ]
+    assert found
+    for conflict, text in found:
+        answer = confirm(conflict, text)
+        assert answer.finding is Finding.CONFIRMED and answer.is_minimal and not answer.untranslated
+        shown = tuple(conflict.elements[number] for number in answer.core)
+        for dropped in range(len(shown)):
+            rest = Conflict(tuple(one for number, one in enumerate(shown) if number != dropped))
+            assert confirm(rest, text).finding is Finding.REFUTED
+
+
+def test_a_limit_of_a_resource_is_read_off_the_text() -> None:
+    path = ROOT / "models/templates/battery/mission.toml"
+    for conflict, text in conflicts_of_mutants(path, 12, 2):
+        elements = [
+            replace(one, terms=(replace(one.terms[0], arguments=(one.terms[0].arguments[0], 0.0, 0.0)),))
+            if one.place is not None and one.place.text.startswith("new Reservoir") and "Min" in str(one.variables[0])
+            else one
+            for one in conflict.elements
+        ]
+        lie = Conflict(tuple(elements))
+        if lie != conflict and confirm(conflict, text).finding is Finding.CONFIRMED:
+            assert confirm(lie, text).finding is Finding.CONFIRMED
+            assert confirm(lie).finding is Finding.REFUTED
+            return
+    pytest.fail("no conflict over the least level")

@@ -141,6 +141,18 @@ def test_the_queries_of_editors_fit_the_grammar(language: Language, name: str) -
     assert Query(language, (ROOT / name).read_text()).capture_count > 0
 
 
+@pytest.mark.parametrize(
+    ("copy", "source"),
+    [("zed/languages/nddl/highlights.scm", "highlights.scm"), ("helix/queries/nddl/locals.scm", "locals.scm")],
+)
+def test_copies_of_queries_are_alike(copy: str, source: str) -> None:
+    """An editor takes its whole folder, so it has its own."""
+    theirs, ours = ((GRAMMAR.parent / copy).read_text(), (GRAMMAR / "queries" / source).read_text())
+    assert [line for line in theirs.splitlines() if line[:1] != ";"] == [
+        line for line in ours.splitlines() if line[:1] != ";"
+    ]
+
+
 def test_a_text_that_is_being_typed_keeps_what_is_whole(language: Language) -> None:
     text = b"class A extends Timeline { predicate p { int n; } }\nA::p { duration >= \nA::q { starts(B.r c); }\n"
     root = Parser(language).parse(text).root_node

@@ -16,6 +16,10 @@ class Term:
     members where they are names). Arguments are variables, numbers, or names of values. A `sampledParameter` term has
     the variable, the parameter name and the value drawn. A `memberOf` term has `a.b` of an object `a` that was open
     when it was needed, `a`, and what `b` is in each of the objects that `values` names.
+
+    What a resource demands: `levelAtLeast`, `levelAtMost` (resource, first level, limit), `rateAtMost`, `totalAtMost`
+    (resource, limits of consumption and production), `capacityFrom`, `levelFrom` (resource, from when, lower, upper);
+    its uses: `consume`, `produce` (object, quantity, time) and `use` (object, quantity, start, end).
     """
 
     name: str
@@ -25,7 +29,10 @@ class Term:
 
 @dataclass(frozen=True, slots=True)
 class ResourceTerm:
-    """A resource, or timeline, certainly exceeded; fields as in `Violation`, `users` are tokens with amounts."""
+    """A resource, or timeline, certainly exceeded; fields as in `Violation`, `users` are tokens with amounts.
+
+    `terms` say what it demands, and of which uses.
+    """
 
     resource: str
     wrong: int
@@ -37,3 +44,4 @@ class ResourceTerm:
     has_helper: bool
     in_any_order: bool
     users: tuple[tuple[str, float], ...]
+    terms: tuple[Term, ...] = ()

@@ -1,12 +1,14 @@
 """Causes as terms: an edge, restriction or constraint of the engine in, names and numbers that outlive it out."""
 
 from collections.abc import Callable
+from math import inf
 
 from compiler.program import TOKEN_VARIABLES
 from runtime.constraints.domains.tags import FLAG_VALUES, HALF_INF, KIND_FLOAT, KIND_INT
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.propagators.opcodes import OP_ELEMENT
 from runtime.constraints.propagators.registry import EXACT_TWINS, NAMES
+from runtime.plan import tags
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.statements import Argument, ResourceTerm, Term
 from runtime.plan.resources.violation import Violation
@@ -118,7 +120,7 @@ class TermReader:
         engine = self.engine
         external = engine.externals.get(c)
         if isinstance(external, Violation):
-            return self._violation(external)
+            return self._violation(c, external)
         code = engine.op[c]
         if self.database.narrows_functions:
             code = _WAITING.get(code, code)
@@ -127,7 +129,7 @@ class TermReader:
             return Term(NAMES[code], arguments, tuple(self.database.objects.names[o] for o in engine.keys(c)))
         return Term(external.name if isinstance(external, Written) else NAMES[code], arguments)
 
-    def _violation(self, violation: Violation) -> ResourceTerm:
+    def _violation(self, c: int, violation: Violation) -> ResourceTerm:
         users = tuple((self._user(t), amount) for t, amount in violation.charged if t >= 0)
         return ResourceTerm(
             self.database.objects.names[violation.resource],
@@ -140,7 +142,33 @@ class TermReader:
             violation.helper != 0,
             violation.table is not None,
             users,
+            self._demands(c, violation),
         )
+
+    def _demands(self, c: int, violation: Violation) -> tuple[Term, ...]:
+        """What a resource demands that is violated, the changes of its limits, and its uses."""
+        name = self.database.objects.names[violation.resource]
+        arguments = [self.argument(v) for v in self.engine.arguments(c)]
+        limits = dict(zip(violation.limits, arguments, strict=False))
+        match violation.wrong:
+            case tags.TOO_LOW | tags.TOO_TIGHT:
+                first = Term("levelAtLeast", (name, limits.get(tags.INITIAL, 0.0), limits.get(tags.MINIMUM, -inf)))
+            case tags.TOO_HIGH:
+                first = Term("levelAtMost", (name, limits.get(tags.INITIAL, 0.0), limits.get(tags.MAXIMUM, inf)))
+            case tags.TOO_FAST:
+                first = Term("rateAtMost", (name, *(limits.get(k, inf) for k in (tags.RATE, tags.PRODUCTION_RATE))))
+            case _:
+                first = Term("totalAtMost", (name, *(limits.get(k, inf) for k in (tags.TOTAL, tags.PRODUCTION_TOTAL))))
+        found = [first]
+        found += [Term("capacityFrom", (name, *step)) for step in violation.steps]
+        found += [Term("levelFrom", (name, *step)) for step in violation.limit_steps]
+        position = len(limits)
+        for sign in violation.signs:
+            count = min(2 + abs(sign), 4)
+            kind = "use" if count > 3 else "consume" if sign < 0 else "produce"
+            found.append(Term(kind, tuple(arguments[position : position + count])))
+            position += 2 + abs(sign)
+        return tuple(found)
 
     def _user(self, t: int) -> str:
         """The name of a token that uses something, with that of the token whose rule asks for it."""

@@ -103,7 +103,7 @@ class Violation(External):
             profile.add_step(at, low - upper, high - lower)
             low, high = lower, upper
         found = profile.overload() if self.wrong == TOO_TIGHT else profile.violation()
-        return refuse(s, c) if found else True
+        return refuse(s, c) if found == self.wrong else True  # another one may be of what is not known here
 
     def _is_out_by_order(self, s: Store, c: int) -> bool:
         """Whether the order of the uses in `s` makes certain that the level is out of bounds."""
@@ -116,7 +116,11 @@ class Violation(External):
         for at, lower, upper in self.steps:
             table.set_capacity(self.resource, at, lower, upper)
         for sign, parts in self._uses_of(s, c):
+            holder, helps = parts[0], (sign > 0) == (self.wrong == TOO_LOW)
+            if helps and s.lb[holder] != s.ub[holder] and has_value(s, holder, self.resource):
+                return False  # it may help
             end = parts[3] if len(parts) > 3 else -1
-            table.add_use(-1, 1 if sign > 0 else -1, parts[0], parts[1], parts[2], end, -1, 1)
+            table.add_use(-1, 1 if sign > 0 else -1, holder, parts[1], parts[2], end, -1, 1)
         table.is_quiet()
-        return bool(self.judge(s, table).find_certain(self.resource))
+        envelope = self.judge(s, table)
+        return bool(envelope.find_certain(self.resource)) and bool(envelope.is_low == 0) == (self.wrong == TOO_LOW)

@@ -65,11 +65,15 @@ class Flaw:
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """A resolver that failed: by a conflict of `causes`, or because no resolver mends what it leads to."""
+    """A resolver that failed: by a conflict of `causes`, or because no resolver mends what it leads to.
+
+    `told` belongs to the conflict too: declarations that its violated resource tells in words.
+    """
 
     resolver: Resolver
     causes: tuple[FoundCause, ...]
     dead_end: "FailedFlaw | None" = None
+    told: tuple[FoundCause, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

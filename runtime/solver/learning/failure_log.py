@@ -50,7 +50,7 @@ class FailureLog:
 
     def note_contradiction(self) -> FailedFlaw:
         """There is a conflict before any decision."""
-        attempt = Attempt(Resolver(ResolverKind.PROPAGATE), self._causes(self._reader()))
+        attempt = self._attempt(Resolver(ResolverKind.PROPAGATE), self._reader())
         self.end = FailedFlaw(Flaw(NONE), (attempt,))
         return self.end
 
@@ -59,7 +59,7 @@ class FailureLog:
         if self.count < _MOST:
             self.count += 1
             reader = self._reader()
-            self._add(d, Attempt(self._resolver(d, reader), self._causes(reader)))
+            self._add(d, self._attempt(self._resolver(d, reader), reader))
 
     def note_rejection(self, d: int) -> None:
         """Decision `d` is in force: note it if it has rejected a token."""
@@ -93,14 +93,15 @@ class FailureLog:
         names = token_names(self.database, live_tokens(self.database))
         return TermReader(self.database, lambda t: names.get(t, f"token {t}"))
 
-    def _causes(self, reader: TermReader) -> tuple[FoundCause, ...]:
+    def _attempt(self, resolver: Resolver, reader: TermReader) -> Attempt:
         """The minimal causes of the present conflict; those without a source place come last."""
         engine = self.database.engine
         found = sorted(engine.explain(), key=lambda cause: cause.span < 0)  # source lines are the last to be dropped
         causes = dict.fromkeys(self._cause(cause, reader) for cause in minimise(engine, found))
-        if any(cause.origin is CauseOrigin.IMPLIED for cause in causes):  # it tells the users and the limits
-            causes = dict.fromkeys(one for one in causes if one.span or one.origin is not CauseOrigin.DECLARED)
-        return tuple(sorted(causes, key=_rank))
+        implied = any(cause.origin is CauseOrigin.IMPLIED for cause in causes)  # it tells the users and the limits
+        told = [one for one in causes if implied and not one.span and one.origin is CauseOrigin.DECLARED]
+        rest = sorted((one for one in causes if one not in told), key=_rank)
+        return Attempt(resolver, tuple(rest), told=tuple(told))
 
     def _cause(self, cause: Cause, reader: TermReader) -> FoundCause:
         term = reader.term(cause)
@@ -170,7 +171,7 @@ class FailureLog:
                 mark = self.database.mark()
                 if not merge(self.plan, item, other, NONE):
                     resolver = Resolver(ResolverKind.MERGE, (reader.token(other),))
-                    self._add(d, Attempt(resolver, self._causes(reader)))
+                    self._add(d, self._attempt(resolver, reader))
                 self.database.release(mark)
                 other = next_active(self.plan, other, rows.predicate[item])
                 trials += 1
@@ -192,7 +193,7 @@ class FailureLog:
                     return
                 mark = self.database.mark()
                 if not (order(self.plan, o, before, after, NONE) and fire(self.plan)):
-                    self._add(d, Attempt(self._insertion(o, before, after, t, reader), self._causes(reader)))
+                    self._add(d, self._attempt(self._insertion(o, before, after, t, reader), reader))
                 self.database.release(mark)
 
 
