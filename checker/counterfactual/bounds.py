@@ -7,6 +7,7 @@ import re
 from collections import defaultdict
 from collections.abc import Container, Sequence
 
+from checker.counterfactual.demands import Demands
 from checker.mutation.edits import EditSite, SmallEdit
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
@@ -16,14 +17,18 @@ _LEAST, _MOST = 1, 2  # of the arguments of a reservoir
 
 
 class Directions:
-    """Of each constant, whether it loosens by growing (1) or by shrinking (-1), if all lines that use it agree."""
+    """Of each constant, whether it loosens by growing (1) or by shrinking (-1), if all lines that use it agree.
 
-    def __init__(self, sites: Sequence[EditSite], constants: Container[str]) -> None:
+    What other lines make of it counts where missions fail for what is late, not for what does not happen (`is_late`).
+    """
+
+    def __init__(self, sites: Sequence[EditSite], constants: Container[str], *, is_late: bool) -> None:
         found: dict[str, set[int]] = defaultdict(set)
         for site in sites:
             for name in _WORD.finditer(site.text):
                 if name.group() in constants and name.group() != site.named:
                     found[name.group()].add(_direction(site.text, name.start()))
+        self._demands = Demands(sites if is_late else (), constants)
         self._of = {name: ways.pop() for name, ways in found.items() if len(ways) == 1}
 
     def of(self, edit: SmallEdit, site: EditSite) -> int:
@@ -33,8 +38,8 @@ class Directions:
             argument = site.text.count(",", reservoir.end(), max(at, 0))
             return {_LEAST: -1, _MOST: 1}.get(argument, 0)
         if site.named:
-            return self._of.get(site.named, 0)
-        return _direction(site.text, at)
+            return self._of.get(site.named, 0) or self._demands.of(site.named)
+        return _direction(site.text, at) or self._demands.at(site, at)
 
 
 def _direction(text: str, at: int) -> int:

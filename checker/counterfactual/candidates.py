@@ -24,6 +24,7 @@ from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import Abort, Conflict, Deadlock, ElementKind, Event, EventKind, Outcome, SourcePlace
 
 _CULPRIT, _CONFLICT, _LOG, _OBSERVED, _COVERED, _EVENT, _AWAITED, _NAMED = 0.0, 0.25, 0.5, 0.5, 0.75, 1.0, 1.0, 1.5
+_PASSED = 0.4  # length of the way through a line that only passes a value on
 _LEVEL = 0.5  # of what changes the level of a resource that rules something out
 _OUTSIDE = 3.0  # added where other lines contradict each other, whatever happens
 _TROUBLES = (EventKind.RELAX, EventKind.REJECT, EventKind.REFUSE, EventKind.KILL)
@@ -42,11 +43,15 @@ class Suspicion(StrEnum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Candidate:
-    """A site that is worth a trial: `far` from what ended the mission, by lines that hang together."""
+    """A site that is worth a trial: `far` from what ended the mission, by lines that hang together.
+
+    It is so much nearer for trials as lines on the way only pass a value on.
+    """
 
     site: EditSite
     far: float
     source: Suspicion
+    nearer: float = 0.0
 
 
 def candidates_of(
@@ -104,7 +109,8 @@ def candidates_of(
         for number in graph.within(span):
             if number not in roots or roots[number][0] > _COVERED:
                 roots[number] = (_COVERED, Suspicion.COVERAGE)
-    distances = graph.distances({number: far for number, (far, _) in roots.items()})
+    given = {number: far for number, (far, _) in roots.items()}
+    distances, reached = graph.distances(given), graph.distances(given, _PASSED)
     seen = held | _named_predicates(outcome)
     if failed.deadlock is not None:  # a search tries tokens that are never flown
         near = [number for number, (far, _) in roots.items() if far <= _LOG]
@@ -117,7 +123,8 @@ def candidates_of(
         far, source = roots.get(number, (0.0, Suspicion.DEPENDENCE))
         is_unseen = bool(site.rule) and site.rule.rpartition(".")[2] not in seen
         is_outside = bool(inside) and number not in inside
-        found.append(Candidate(site, distances[number] + _UNSEEN * is_unseen + _OUTSIDE * is_outside, source))
+        added = _UNSEEN * is_unseen + _OUTSIDE * is_outside
+        found.append(Candidate(site, distances[number] + added, source, distances[number] - reached[number]))
     return sorted(found, key=lambda one: one.far)
 
 

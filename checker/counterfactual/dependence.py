@@ -53,7 +53,6 @@ _DURATION = "duration"
 _FREE = ("any", "contains", "starts", "met_by", "after", "meets", "before")
 _RESOURCES = ("Reservoir", "Reusable", "CBReusable", "Unary")
 _MOST_BESIDE = 12  # lines that speak of a variable which still says that they hang together
-_PASSED = 0.4  # length of the way through a line that only passes a value on
 _PASSING = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==\s*([A-Za-z_][\w.]*)\s*;")
 _CROWD = 0.05  # what each further line that bears on a variable adds to the way through it
 
@@ -165,8 +164,11 @@ class Dependence:
         found = {self.sites[one] for group in groups if len(group) <= _MOST_BESIDE for one in group}
         return found - {site}
 
-    def distances(self, roots: Mapping[int, float]) -> dict[int, float]:
-        """How far each site is from the nearest root, whose own distance is given: shortest ways through variables."""
+    def distances(self, roots: Mapping[int, float], through: float = 1.0) -> dict[int, float]:
+        """How far each site is from the nearest root, whose own distance is given: shortest ways through variables.
+
+        A way is so long `through` a line that passes a value on, and nothing more.
+        """
         found: dict[int, float] = {}
         passed: set[Key] = set()
         queue = [(far, site) for site, far in roots.items()]
@@ -178,7 +180,7 @@ class Dependence:
             found[site] = far
             for key in self._keys[site] - passed:
                 passed.add(key)
-                step = (_PASSED if self._is_passing(site) else 1.0) + _CROWD * len(self._users[key])
+                step = (through if self._is_passing(site) else 1.0) + _CROWD * len(self._users[key])
                 for other in self._users[key]:
                     if other not in found:
                         heapq.heappush(queue, (far + step, other))

@@ -50,6 +50,11 @@ class Mentions:
         is_set = self.is_set_by(edit, site)
         return self._lacks(edit.new, site, is_set, 0) - self._lacks(edit.old, site, is_set, 1)
 
+    def case_gain(self, edit: SmallEdit, site: EditSite) -> int:
+        """1 where another line of the rule has the old value of a condition too, less 1 where one has the new value."""
+        read = self._read[_scope(site)]
+        return (read[edit.old] > 1) - (read[edit.new] > 0)
+
     def unsets(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether nothing sets a variable of a rule any more that a line has set."""
         is_local = edit.old in self._locals[_scope(site)]

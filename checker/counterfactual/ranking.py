@@ -2,7 +2,8 @@
 
 First come small changes that mend every failed mission that they were tried on, without a goal lost. Where there are
 none, a line may be missing: variables that too few lines speak of come before what only takes a demand away, unless
-that is usual or far off. Where a branch lacks what the other sets, that mends which leads around it shows no more.
+that is usual or far off. A constant that is read and has no value is second at least. Where a branch lacks what the
+other sets, that mends which leads around it shows no more.
 """
 
 from dataclasses import dataclass
@@ -87,7 +88,9 @@ def rank(trials: Trials, root: Path) -> Causes:
     tried = [_tried(one, root) for one in large]
     likely = [] if small else [_loose(one, root) for one in loose if one.doubt <= _LEAST_DOUBT]
     missing = [_loose(one, root) for one in loose]
-    causes = [*(_tried(one, root) for one in small), *likely, *tried, *missing]
+    unset = [_loose(one, root) for one in loose if one.is_unset and one.doubt <= _LEAST_DOUBT]
+    mended = [_tried(one, root) for one in small]
+    causes = [*mended[:1], *unset, *mended[1:], *likely, *tried, *missing]
     lines: dict[tuple[str, int], RankedLine] = {}
     for cause in causes:
         lines.setdefault((cause.place.file, cause.place.line), cause)

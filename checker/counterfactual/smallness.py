@@ -31,6 +31,7 @@ _NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 _MOST_FOLLOW_UPS = 3
 _FEW = 3  # numbers so small that one more is much
 _LATER = 0.7  # what is no number, where most missions pass
+_SIDE = 0.1  # when it is tried whether a resource is consumed or produced: there is no third
 _LATE = 3.0  # later by so much: what is tried when all likelier edits have been
 _DROP = 3.0
 _KINDS = 0.5  # how much the number of lines counts at which an edit of the kind can be made
@@ -67,6 +68,7 @@ _SIGNED = {"time sum": {"+": 4.0, "-": 1.0}, "sum": {"+": 2.0, "-": 1.0}, "numbe
 _MENTION, _ALIKE, _DOUBLED = 2.0, 1.5, 0.7  # odds that what lacks a mention is meant, or the same name on both sides
 _WISHED = 5.5  # of another wish: it is the user's
 _VALUE = 1.7  # of another value: few lines have one, so their number says little
+_CASE = 1.0  # odds that no two conditions of a rule ask for the same value
 _UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
 _SUM = 1.5  # how much the odds count of a sign that stands between the same words elsewhere
 _RARE = 0.3  # all other words
@@ -134,7 +136,7 @@ class Usage:
         return max(odds, _LEAST_ODDS) if sort == "condition" else odds
 
 
-def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0) -> Usage:
+def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0, is_late: bool = True) -> Usage:
     """The usage of words in all lines; a line that sets a variable does not use it."""
     counts: Counter[str] = Counter()
     kinds: Counter[EditKind] = Counter()
@@ -149,7 +151,7 @@ def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0) -> Usage:
     sampled = {name for site in sites for name in _SAMPLED.findall(site.text)}
     named = {site.named for site in sites if site.named}
     mentions = Mentions(sites, named, counts)
-    directions = Directions(sites, named)
+    directions = Directions(sites, named, is_late=is_late)
     return Usage(counts, named, kinds, meant, sampled, Affinity(sites, named), sums, mentions, directions, passing)
 
 
@@ -187,12 +189,13 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return 1.0 + _OCTAVE * _octaves(edit) + _DIGIT * (_digits(edit.new) - _digits(edit.old))
         case EditKind.MISSION if edit.old == "0":
             return 0.0  # a reactor that is asked for nothing
-        case EditKind.PREDICATE | EditKind.MISSION:
-            return 3.0
         case EditKind.GOAL:
             return _WISHED
+        case EditKind.OPERATOR | EditKind.PREDICATE | EditKind.MISSION:
+            return 3.0
         case EditKind.VALUE:
-            return _VALUE
+            is_case = edit.old not in _TRUTHS and not site.text.endswith(";")
+            return _VALUE - (_CASE * usage.mentions.case_gain(edit, site) if is_case else 0.0)
         case EditKind.NAME | EditKind.POINT | EditKind.TOKEN:
             return 2.0 - usage.fitness(edit, site)
         case _:
@@ -224,7 +227,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return 0.0  # few write a number below zero
         case EditKind.SIGN:
             return 0.5 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
-        case EditKind.ARGUMENTS:
+        case EditKind.ARGUMENTS | EditKind.OPERATOR:
             return 0.5 + _LATER * usage.passing
         case EditKind.NAME:
             fitness = usage.fitness(edit, site)
@@ -233,6 +236,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return 0.5 - 0.6 * fitness if fitness > 0.0 else neutral - fitness
         case EditKind.VALUE:
             return -0.4 + _LATER * usage.passing
+        case EditKind.PREDICATE if edit.old in _EVENTS:
+            return _SIDE
         case EditKind.POINT | EditKind.TOKEN | EditKind.PREDICATE:
             return 0.5 - 0.5 * usage.fitness(edit, site) + _LATER * usage.passing
         case EditKind.DROPPED_CONSTRAINT:

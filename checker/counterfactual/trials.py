@@ -25,6 +25,7 @@ from runtime.executive.events import single_events
 MOST_FLIGHTS = 40
 MOST_SECONDS = 60.0
 _NEARNESS = 0.3  # of the distance, beside how late an edit is tried at its line
+_REACH = 0.4  # the same of a constant, of which there are many
 _TURN, _PLACE = 0.3, 0.1  # how much later each further edit of one line is tried, at one place and at another
 _MOST_OUTSIDE = 8  # changes of the mission file
 _TOLD = 3  # small changes of models beside which a goal is not doubted
@@ -32,6 +33,8 @@ _CONFIRMED = 3  # causes that are tried on other missions too
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
 HEAVY = 10.0  # damage of a mission that passes without a goal
 _STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
+_NEAR = 0.25  # distance of what a conflict speaks of
+_PROBE = -0.1  # when such a line is left out: where that helps, it is at fault or what it compares is
 _CONSTANT = 1.0  # how much nearer a constant counts: it stands for its number in the line that reads it
 _SLOW = 8.0  # times the slowest flight before that passed or failed: a change may leave a search without an end
 _LEAST_SECONDS = 3.0  # that a flight may take
@@ -80,6 +83,11 @@ class LineTrial:
     def toll(self) -> float:
         """What is lost with the change, and how unlikely it is."""
         return self.damage + self.cost + (HEAVY if self.is_evasive else 0.0)
+
+    @property
+    def order(self) -> tuple[bool, float]:
+        """Of the changes of one line, the first counts: what takes no demand away is before what does."""
+        return self.toll < HEAVY and is_loosening(self.edit, self.candidate.site), self.toll
 
     @property
     def weight(self) -> tuple[float, float, float]:
@@ -153,9 +161,11 @@ def try_out(
     turns = Turns(beside)
     for candidate in (*last, *candidates):
         earlier: Counter[int] = Counter()
-        far = max(candidate.far - _CONSTANT * candidate.site.is_number, 0.0)
+        far = max(candidate.far - candidate.nearer - _CONSTANT * candidate.site.is_number, 0.0)
         for delay, edit in _first_edits(candidate.site, usage):
-            at = _NEARNESS * far + delay
+            if _is_probe(edit) and _is_spoken(candidate):
+                delay = min(delay, _PROBE)
+            at = (_REACH if candidate.site.is_number else _NEARNESS) * far + delay
             if edit.kind is not EditKind.VALUE:  # of which there are few
                 at += _TURN * earlier[edit.begin] + _PLACE * len(earlier)
                 earlier[edit.begin] += 1
@@ -173,7 +183,8 @@ def try_out(
         site = candidate.site
         cost = cost_of(edit, site, usage)
         known = best.get(site)
-        if (site, edit) in tried or (known is not None and known.toll <= cost):
+        is_costly = known is not None and known.toll <= cost and not _is_gain(edit, site, known)
+        if (site, edit) in tried or is_costly:
             continue
         tried.add((site, edit))
         result = trials.fly(edit, failed[0])
@@ -185,7 +196,7 @@ def try_out(
         if damage < HEAVY:
             turns.favour(site)
         trial = LineTrial(candidate, edit, damage, cost, is_evasive=missions.is_evasive(result))
-        if known is None or trial.toll < known.toll:
+        if known is None or trial.order < known.order:
             best[site] = trial
         for other in follow_ups(edit, site, usage) if trial.damage < HEAVY else ():
             turns.add(at * _FOLLOWED, candidate, other)
@@ -200,7 +211,7 @@ def try_out(
                 damage, cost = damage_of(result) + _strayed(result, failed[0]), cost_of(edit, candidate.site, usage)
                 trial = LineTrial(candidate, edit, damage, cost, is_evasive=missions.is_evasive(result))
                 known = best.get(candidate.site)
-                if known is None or trial.toll < known.toll:
+                if known is None or trial.order < known.order:
                     best[candidate.site] = trial
     trials.resume()
     ranked = sorted(best.values(), key=lambda one: one.weight)
@@ -212,6 +223,22 @@ def try_out(
     ended = trials.ended or (TrialsEnd.COMPLETE if is_all else TrialsEnd.FLIGHTS)
     lines = len({site for site, _ in tried})
     return Trials(tuple(ranked), tuple(candidates), lines, trials.flights, ended)
+
+
+def _is_spoken(candidate: Candidate) -> bool:
+    """Whether the conflict that ended the mission speaks of a line."""
+    return candidate.source is Suspicion.CONFLICT and candidate.far <= _NEAR
+
+
+def _is_probe(edit: SmallEdit) -> bool:
+    """Whether an edit leaves out a limit or a relation: a value that is not set would fail all the same."""
+    is_limit = edit.kind is EditKind.DROPPED_CONSTRAINT and "==" not in edit.old and "Eq" not in edit.old
+    return is_limit or (edit.kind is EditKind.RELATION and edit.new == "any")
+
+
+def _is_gain(edit: SmallEdit, site: EditSite, known: LineTrial) -> bool:
+    """Whether an edit takes no demand away where the one that helped does."""
+    return is_loosening(known.edit, site) and not is_loosening(edit, site)
 
 
 def _small(best: Mapping[EditSite, LineTrial]) -> int:
@@ -311,7 +338,7 @@ class _Trials:
                 unhelped.append(mission)
         site = trial.candidate.site
         for other in alternatives(trial.edit, site, usage) if unhelped else ():
-            if not self.may_go_on() or self.fly(other, unhelped[0]).verdict is not Verdict.PASS:
+            if not self.may_go_on(1) or self.fly(other, unhelped[0]).verdict is not Verdict.PASS:
                 continue
             again = self.fly(other, first)
             if again.verdict is Verdict.PASS:

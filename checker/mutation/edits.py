@@ -74,6 +74,7 @@ class EditKind(StrEnum):
     GOAL = "goal"  # what a goal asks for
     DROPPED_CONSTRAINT = "dropped constraint"
     DROPPED_BRANCH = "dropped branch"
+    OPERATOR = "operator"  # a product for a sum
 
 
 OUTSIDE = (EditKind.MISSION, EditKind.GOAL)  # of any model
@@ -293,6 +294,8 @@ class _Reader:
                     yield EditKind.COMPARISON, span, other_op
                 if op in ("+", "-"):
                     yield EditKind.SIGN, span, "-" if op == "+" else "+"
+                if op in ("+", "*"):
+                    yield EditKind.OPERATOR, span, "*" if op == "+" else "+"
             case UnaryExpr(op="-", operand=operand, span=span):
                 yield EditKind.SIGN, span, operand.span.text
             case Relation(relation=relation, bounds=()):

@@ -67,6 +67,7 @@ def test_each_kind_of_edit_is_made_where_it_fits(model: Path) -> None:
         EditKind.DROPPED_CONSTRAINT: {""},
     }
     assert changes(model, "child.n >= n - 1;")[EditKind.SIGN] == {"+"}
+    assert EditKind.OPERATOR not in changes(model, "child.n >= n - 1;")
     assert changes(model, "leq(child.n, n);")[EditKind.ARGUMENTS] == {"n, child.n"}
     assert changes(model, "MOST = 20;")[EditKind.OFF_BY_ONE] == {"19", "21"}
     assert changes(model, "n == 3")[EditKind.DROPPED_BRANCH] == {""}
