@@ -68,6 +68,11 @@ def test_make_alone_says_what_it_can_do(tree: Path) -> None:
 def test_what_takes_long_says_so(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr(ticking, "EVERY", 0.01)
     told = threading.Event()
-    with ticking.ticking("building", lambda: "1 of 2 modules, " if told.set() is None else ""):
+
+    def progress() -> str:
+        told.set()
+        return "1 of 2 modules, "
+
+    with ticking.ticking("building", progress):
         assert told.wait(10.0)
     assert capsys.readouterr().err.startswith("  building: 1 of 2 modules, 0 s\n")
