@@ -11,6 +11,7 @@ import click
 
 from checker.batch.pool import FlyBatch
 from checker.batch.process import keeping_a_worker
+from checker.batch.result import write_record
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
 from checker.conditions.record import write_condition
@@ -175,11 +176,13 @@ def _promoted(campaign: Campaign, file: Path) -> tuple[RegressionCase, ...]:
 
 
 def _keep(findings: Findings, store_path: Path) -> None:
-    """Have the store remember the conditions, so that `explain` need not fly for them; it can if that fails."""
+    """Have the store remember conditions and causes, so that `explain` need not fly for them; it can if that fails."""
     known = {fault.bucket.example: write_condition(fault.condition) for fault in findings.faults}
     known |= {part: write_condition(one.bucket.example) for one in findings.faults for part in one.bucket.parts[1:]}
+    causes = {fault.bucket.example: write_record(fault.causes) for fault in findings.faults if fault.causes.is_sought}
     with suppress(StoreError), open_store(store_path) as store:
         store.keep_conditions(findings.run_id, known)
+        store.keep_causes(findings.run_id, causes)
 
 
 def _prepare(
