@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from checker.batch.result import MissionResult
-from checker.causes import Culprit, culprit_of, failed_by, missed_after
+from checker.causes import failed_by, missed_after
+from checker.culprit import Culprit, culprit_of
 from checker.losses import GoalFate, Limit, Repairs
 from checker.oracle import Judgement, Verdict
 from runtime.executive.outcome import Event, OpenGoal

@@ -1,7 +1,7 @@
-"""An abort in, its causal graph out: which draws and events led to it, and which line of the model is the culprit.
+"""An abort in, its causal graph out: which draws and events led to it, and which lines rule out what was tried.
 
-Two graphs: events of the trace point at what they caused (across reactors), and the elements of the conflict hang
-together by the variables they share (inside the reactor that gave up). "Future work" of the founding paper, section 6.
+Events of the trace point at what they caused, across reactors; inside the reactor that gave up, `checker.culprit` looks
+at the conflict. "Future work" of the founding paper, section 6.
 """
 
 from collections import Counter
@@ -10,30 +10,19 @@ from dataclasses import dataclass
 
 import networkx as nx
 
+from checker.culprit import culprit_of
 from runtime.executive.events import causes_of, numbered
 from runtime.executive.outcome import (
     Abort,
     Conflict,
     ConflictElement,
     Deadlock,
-    ElementKind,
     Event,
     EventKind,
     OpenGoal,
     Outcome,
-    SourcePlace,
 )
-from runtime.plan.readout.names import VariableName
 
-# Kinds of elements that no line of the model can help.
-_WORLD = (
-    ElementKind.SAMPLE,
-    ElementKind.OBSERVATION,
-    ElementKind.REQUEST,
-    ElementKind.CLOCK,
-)
-_VALUES = (ElementKind.ASSIGNMENT, ElementKind.DECLARATION)
-_LIMITS = ("leq", "lt", "neq", "bounds", "withinBounds", "precedes", "strictlyPrecedes")
 _ANSWERS = (EventKind.REFUSE, EventKind.REJECT)
 _MISSED = "F6"  # what its owner had refused or rejected
 _MOST_EVENTS = 8  # of the way to the abort, the last ones
@@ -48,24 +37,6 @@ class Failed:
 
     conflict: Conflict | None = None
     deadlock: Deadlock | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Culprit:
-    """The element of a conflict where draw and model collide, and the lines that set what it compares with.
-
-    `number` is its index in the conflict, -1 where no element is written anywhere; then `at` may name a line.
-    """
-
-    number: int = -1
-    element: ConflictElement | None = None
-    limits: tuple[SourcePlace, ...] = ()
-    at: SourcePlace | None = None
-
-    @property
-    def place(self) -> SourcePlace | None:
-        """Its line in the model."""
-        return self.element.place if self.element is not None else self.at
 
 
 def failed_by(outcome: Outcome | None) -> Failed:
@@ -175,53 +146,6 @@ def _in_common(deadlock: Deadlock) -> Conflict | None:
     return conflicts[weights.index(max(weights))] if conflicts else None
 
 
-def culprit_of(conflict: Conflict | None) -> Culprit:
-    """The written limit that stands farthest from what the world did."""
-    if conflict is None:
-        return Culprit()
-    elements = conflict.elements
-    graph = _conflict_graph(conflict)
-    roots = _roots(conflict, (ElementKind.SAMPLE,)) or _roots(conflict, _WORLD)
-    far = _distances(graph, roots)
-    candidates = [
-        (_rank(element), -far.get(number, len(elements)), -number)
-        for number, element in enumerate(elements)
-        if element.place is not None and element.kind not in _WORLD
-    ]
-    if not candidates:
-        return Culprit()
-    chosen = -min(candidates)[2]
-    limits = [
-        element.place
-        for number, element in enumerate(elements)
-        if number in graph.adj[chosen] and element.kind in _VALUES and element.place != elements[chosen].place
-    ]
-    return Culprit(chosen, elements[chosen], tuple(place for place in dict.fromkeys(limits) if place is not None))
-
-
-def in_telling_order(conflict: Conflict, last: int) -> list[int]:
-    """The numbers of the elements from the draws outwards, `last` at the end; as given where nothing was drawn."""
-    graph = _conflict_graph(conflict)
-    roots = _roots(conflict, (ElementKind.SAMPLE,))
-    far = _distances(graph, roots)
-    unknown = len(conflict.elements) if roots else 0
-    return sorted(graph, key=lambda number: (number == last, far.get(number, unknown), number))
-
-
-def _conflict_graph(conflict: Conflict) -> "nx.Graph[int]":
-    """The elements by number, joined where they speak of the same variable."""
-    graph: nx.Graph[int] = nx.Graph()
-    graph.add_nodes_from(range(len(conflict.elements)))
-    speakers: dict[VariableName, list[int]] = {}
-    for number, element in enumerate(conflict.elements):
-        for variable in element.variables:
-            for other in speakers.setdefault(variable, []):
-                if other != number:
-                    graph.add_edge(other, number)
-            speakers[variable].append(number)
-    return graph
-
-
 def _event_graph(events: Sequence[Event]) -> "nx.DiGraph[int]":
     """The events of a trace by index, each with arrows to what it caused."""
     graph: nx.DiGraph[int] = nx.DiGraph()
@@ -279,25 +203,3 @@ def draws_behind(outcome: Outcome) -> tuple[str, ...]:
 def _drawn(events: Sequence[Event]) -> list[tuple[int, str]]:
     """The indices of draws, in order, with their parameters."""
     return [(index, event.draw.parameter) for index, event in numbered(events) if event.draw is not None]
-
-
-def _roots(conflict: Conflict, kinds: tuple[ElementKind, ...]) -> list[int]:
-    return [number for number, element in enumerate(conflict.elements) if element.kind in kinds]
-
-
-def _distances(graph: "nx.Graph[int]", roots: list[int]) -> dict[int, float]:
-    return dict(nx.multi_source_dijkstra_path_length(graph, roots)) if roots else {}
-
-
-def _rank(element: ConflictElement) -> int:
-    """How likely a line is the mistaken one: written limits before values before relations before the rest."""
-    is_limit = any(term.name in _LIMITS for term in element.terms)
-    match element.kind:
-        case ElementKind.CONSTRAINT | ElementKind.DURATION if is_limit:
-            return 0
-        case ElementKind.ASSIGNMENT | ElementKind.DECLARATION:
-            return 1
-        case ElementKind.RELATION | ElementKind.ORDER:
-            return 2
-        case _:
-            return 3

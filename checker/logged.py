@@ -132,7 +132,7 @@ def first_departure(log: MissionLog, timelines: Iterable[str], events: Iterable[
     last = max((tick for tick, _ in flown), default=0)
     for tick, timeline in sorted({*logged, *flown}):
         old, new = logged.get((tick, timeline), ""), flown.get((tick, timeline), "")
-        if old != new and tick <= max(last, 0):
+        if old != new and tick <= last:
             return Departure(tick, timeline, old, new)
     return None
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
-from checker.causes import culprit_of
+from checker.culprit import culprit_of
 from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, Outcome, Reason, ReasonKind, SourcePlace
 

@@ -261,16 +261,13 @@ def _are_owners_told(tables: list[Table]) -> bool:
     return all(isinstance(table.values.get("internal", []), list) for table in tables)
 
 
-def _goal_places(*tables: Table) -> tuple[tuple[str, SourcePlace], ...]:
+def _entry_places(*tables: Table) -> tuple[tuple[str, SourcePlace], ...]:
     """Where the mission file gives the bounds and the parameters of a goal, by key."""
     found = []
     for table in tables:
-        source = table.text.source
-        name = source.name.replace("\\", "/").rpartition("/")[2]
         for key in table.values:
             span = table.text.entry_span((*table.path, key))
-            line, column = source.locate(span.begin)
-            found.append((key, SourcePlace(name, line, column, " ".join(span.text.split()))))
+            found.append((key, table.text.place(span, " ".join(span.text.split()))))
     return tuple(found)
 
 
@@ -292,7 +289,7 @@ def _read_goals(
             duration=table.bounds("duration"),
             parameters=tuple((key, _goal_value(parameters, key)) for key in parameters.values),
             recall=table.whole("recall", 0, 1) or None,
-            places=_goal_places(table, parameters),
+            places=_entry_places(table, parameters),
         )
         if goal.recall is not None and goal.recall <= goal.at:
             table.complain_of_value("recall", goal.recall, f"later than `at`, {goal.at}")

@@ -17,6 +17,7 @@ from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import Path, Stretch
 from runtime.executive.configuration import Bounds
+from runtime.executive.outcome import SourcePlace
 
 _MOST_TICKS = 10**12  # far from where sums of times overflow
 _LARGEST = sys.float_info.max
@@ -50,6 +51,12 @@ class MissionText:
     def value_span(self, path: Path) -> Span:
         """The value at `path`, or the key of the nearest table around it."""
         return self.span(*self.places[path].value) if path in self.places else self.key_span(path)
+
+    def place(self, span: Span, text: str, before: int = 0) -> SourcePlace:
+        """Where a stretch begins, or so many columns before that, as reports show it with `text`."""
+        name = self.source.name.replace("\\", "/").rpartition("/")[2]
+        line, column = self.source.locate(span.begin)
+        return SourcePlace(name, line, max(1, column - before), text)
 
 
 _LEAST_LETTERS = 4  # of a key that can be told from others when it is misspelt

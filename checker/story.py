@@ -5,15 +5,14 @@ from enum import StrEnum
 
 from checker.batch.result import MissionResult
 from checker.causes import (
-    culprit_of,
     decided_at,
     draws_behind,
     events_to_abort,
     failed_by,
-    in_telling_order,
     lines_that_rule_out,
     missed_after,
 )
+from checker.culprit import culprit_of, in_telling_order
 from checker.findings import Fault
 from checker.influence import Influence
 from checker.losses import Limit

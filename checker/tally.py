@@ -98,13 +98,8 @@ class Tally:
 
 def _goal_places(mission: Mission) -> tuple[SourcePlace, ...]:
     """The line of each goal in the mission file."""
-    name = mission.source.name.replace("\\", "/").rpartition("/")[2]
-    places = []
-    for number in range(len(mission.agent.goals)):
-        span = mission.text.key_span(("goal", number))
-        line, column = mission.source.locate(span.begin)
-        places.append(SourcePlace(name, line, max(1, column - 2), "[[goal]]"))
-    return tuple(places)
+    spans = (mission.text.key_span(("goal", number)) for number in range(len(mission.agent.goals)))
+    return tuple(mission.text.place(span, "[[goal]]", 2) for span in spans)
 
 
 def tally(mission: Mission, results: Sequence[MissionResult]) -> Tally:

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
-from checker.causes import culprit_of, failed_by, refusals
+from checker.causes import failed_by, refusals
 from checker.counterfactual.deadlocks import lines_at_odds
 from checker.counterfactual.dependence import Dependence
+from checker.culprit import culprit_of
 from checker.mutation.edits import EditSite
 from checker.proofs.places import ModelText
 from nddl_lang.text.read import real_path

@@ -26,6 +26,21 @@ class RunRows(NamedTuple):
     children: Sequence[Array]
     guards: Sequence["GuardRows"]
 
+    def spread(self, rows: Array, count: int) -> "RunRows":
+        """The same runs as those of some rows out of `count`; what the others have is of no account."""
+        return RunRows(
+            self.rule,
+            [each.spread(rows, count) for each in self.locals],
+            [_spread(each, rows, count) for each in self.children],
+            [[each.spread(rows) for each in guard] for guard in self.guards],
+        )
+
+
+def _spread(keys: Array, rows: Array, count: int) -> Array:
+    found = np.full(count, keys[0])
+    found[rows] = keys
+    return found
+
 
 class BranchRows(NamedTuple):
     """Rows in which a guard came to the same, and what it ran there; `rows` is None for all."""
@@ -34,6 +49,10 @@ class BranchRows(NamedTuple):
     is_decided: bool
     rows: Array | None
     run: RunRows | None
+
+    def spread(self, rows: Array) -> "BranchRows":
+        """The same branch where the run that reached it is that of some rows out of more."""
+        return self._replace(rows=rows if self.rows is None else rows.take(self.rows))
 
 
 GuardRows = Sequence[BranchRows]  # each row is in one of them
@@ -139,7 +158,7 @@ def _run_columns(run: RunColumns, numbers: SymbolNumbers, first: int, last: int)
     """The runs from one on to before another."""
     return RunRows(
         run.rule,
-        [numbers.column(each._replace(numbers=each.numbers[first:last])) for each in run.locals],
+        [numbers.column(each.part(first, last)) for each in run.locals],
         [each[first:last] for each in run.children],
         [_branches(each, numbers, first, last) for each in run.guards],
     )

@@ -41,6 +41,7 @@ class RowTally:
         self.open: list[Mask] = []
         self.skipped: dict[str, int] = {}  # in each row
         self.parts: list[tuple[Array, RowTally]] = []  # of some rows
+        self.covered: list[tuple[Mask, RowTally]] = []  # of some rows, with an entry for each row
 
     def need(self, holds: Mask) -> None:
         """Go on with the rows in which something holds."""
@@ -61,6 +62,13 @@ class RowTally:
         if not part.holds.all():
             self.holds[rows] &= part.holds
 
+    def cover(self, rows: Array, part: "RowTally") -> None:
+        """Add what was counted of some rows, where what was counted of the others is of no account."""
+        mask = np.zeros(self.count, bool)
+        mask[rows] = True
+        self.covered.append((mask, part))
+        self.holds &= part.holds | ~mask
+
     def hand_over(self, bench: Bench, holds: Mask) -> None:
         """Add what was counted of the rows that hold."""
         count = int(np.count_nonzero(holds))
@@ -71,12 +79,27 @@ class RowTally:
                 bench.skip(reason, times * count)
         for rows, part in self.parts:
             part.hand_over(bench, holds.take(rows))
+        for mask, part in self.covered:
+            part.hand_over(bench, holds & mask)
 
 
 class RowFrame:
     """One run of a body for each row: values in slots, tokens, and what the record says of the runs."""
 
-    __slots__ = ("bench", "children", "guards", "locals", "rows", "slots", "tables", "tally", "tok", "tokens", "whole")
+    __slots__ = (
+        "bench",
+        "children",
+        "guards",
+        "is_covered",
+        "locals",
+        "rows",
+        "slots",
+        "tables",
+        "tally",
+        "tok",
+        "tokens",
+        "whole",
+    )
 
     def __init__(
         self, bench: Bench, tok: RowTokens, slots: list[Column | None], tokens: list[RowTokens | None]
@@ -89,6 +112,7 @@ class RowFrame:
         self.tally = RowTally(len(tok))
         self.whole: RowFrame | None = None  # the frame of which this one has some `rows`
         self.rows: Array | None = None
+        self.is_covered = False  # whether only some rows are of account
         self.locals: Iterator[Column] = iter(())
         self.children: Iterator[Array] = iter(())
         self.guards: Iterator[GuardRows] = iter(())
@@ -104,6 +128,7 @@ class RowFrame:
         if part.rows is None:
             inner = RowFrame(self.bench, self.tok, list(self.slots), list(self.tokens))
             inner.tally, inner.whole, inner.rows = self.tally, self.whole, self.rows
+            inner.is_covered = self.is_covered
         else:
             parts = [None if each is None else each.part(part.rows) for each in self.tokens]
             assert parts[0] is not None
@@ -111,6 +136,13 @@ class RowFrame:
             inner.whole, inner.rows = self, part.rows
         if part.run is not None:
             inner.follow(part.run)
+        return inner
+
+    def cover(self, run: RunRows, rows: Array) -> "RowFrame":
+        """The frame of a branch that most rows took, with an entry for each row: nothing has to be picked out."""
+        inner = RowFrame(self.bench, self.tok, list(self.slots), list(self.tokens))
+        inner.whole, inner.rows, inner.is_covered = self.whole, self.rows, True
+        inner.follow(run.spread(rows, self.tally.count))
         return inner
 
     def use(self, column: Column) -> Column:

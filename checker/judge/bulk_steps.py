@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from checker.judge.alike import GuardRows
+from checker.judge.alike import GuardRows, RunRows
 from checker.judge.bodies import StepMaker, Written, compile_body
 from checker.judge.bulk_frame import RowFrame, RowRead, RowStep, UnplainError, closed, row_reader
 from checker.judge.bulk_meanings import HOLDS, TRUTHS, conforms, difference_of, near, points, truth, value_of
@@ -19,12 +19,20 @@ from checker.judge.values import may_be_equal
 from compiler.program import START, Assign, Constant, Guard, Instruction, NewObject, NewVariable, Post, Sample, UnionOf
 from runtime.executive.record import OpenValues, Value, ValueRange
 
+_MANY = 8  # a branch that every eighth row took is judged as if all had
+
 
 def _unplain(*_: object) -> RowStep:
     def step(frame: RowFrame) -> None:
         raise UnplainError
 
     return step
+
+
+def _need_all(frame: RowFrame) -> None:
+    """Refuse to go through rows one by one where only some of them are of account."""
+    if frame.is_covered:
+        raise UnplainError
 
 
 def _define_slot(slot: int, make: RowRead) -> RowStep:
@@ -84,6 +92,7 @@ def _count_equal(frame: RowFrame, a: Column, b: Column) -> None:
     same = near(a, b)
     fixed = closed([a, b], frame.tally.count)
     if fixed is not None:
+        _need_all(frame)
         texts = frame.tables.texts
         rows = np.flatnonzero(~fixed)
         same = np.array(np.broadcast_to(same, frame.tally.count))
@@ -171,6 +180,7 @@ def _check_loose(post: Post, meaning: Meaning, names: VariableNames) -> RowStep:
     ranges = [domain_value(one.domain) if isinstance(one, Constant) else None for one in post.operands]
 
     def step(frame: RowFrame) -> None:
+        _need_all(frame)
         tally, texts = frame.tally, frame.tables.texts
         rows = np.arange(tally.count)
         columns = [frame.use(read(frame)) for read, one in zip(reads, ranges, strict=True) if one is None]
@@ -185,6 +195,7 @@ def _check_loose(post: Post, meaning: Meaning, names: VariableNames) -> RowStep:
 
 def _one_by_one(meaning: Meaning, columns: Sequence[Column], frame: RowFrame, rows: Array) -> Mask:
     """Where a constraint holds, asked row by row."""
+    _need_all(frame)
     texts = frame.tables.texts
     given = zip(*[column.values(texts, rows) for column in columns], strict=True)
     return np.array([meaning(*values) is True for values in given], bool)
@@ -241,6 +252,7 @@ def _define(post: Post, index: int, slot: int, names: VariableNames) -> RowStep:
         found = quick(columns, frame) if quick is not None and closed(columns, frame.tally.count) is None else None
         if found is not None:
             return found
+        _need_all(frame)
         texts = frame.tables.texts
         rows = np.arange(frame.tally.count)
         given = zip(*[column.values(texts, rows) for column in columns], strict=True)
@@ -285,9 +297,12 @@ def _guard(guard: Guard, then: list[RowStep], otherwise: list[RowStep], names: V
         for part in reached:
             if part.run is None:
                 continue
+            steps = then if part.branch == "then" else otherwise
+            if part.rows is not None and _covers(frame, part.run, part.rows, steps):
+                continue
             inner = frame.branch(part)
             try:
-                for each in then if part.branch == "then" else otherwise:
+                for each in steps:
                     each(inner)
             except UnplainError:
                 if part.rows is None:
@@ -297,6 +312,20 @@ def _guard(guard: Guard, then: list[RowStep], otherwise: list[RowStep], names: V
                 frame.tally.add(part.rows, inner.tally)
 
     return step
+
+
+def _covers(frame: RowFrame, run: RunRows, rows: Array, steps: list[RowStep]) -> bool:
+    """Judge a branch that many rows took as if all had; False where that cannot be done."""
+    if len(rows) * _MANY < frame.tally.count:
+        return False
+    inner = frame.cover(run, rows)
+    try:
+        for each in steps:
+            each(inner)
+    except UnplainError:
+        return False
+    frame.tally.cover(rows, inner.tally)
+    return True
 
 
 def _judge_branches(frame: RowFrame, reached: GuardRows, condition: Column) -> None:

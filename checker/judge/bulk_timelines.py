@@ -13,7 +13,9 @@ from compiler.program import END, OBJECT, START, PredicateCode
 from runtime.executive.columns import PublishedColumns, TokenColumns
 from runtime.executive.events import EventColumns
 from runtime.executive.outcome import Event
-from runtime.executive.record import TokenRecord
+from runtime.executive.record import TokenRecord, Value
+
+_NUMBERS = ("int", "float", "bool")  # kinds; others have names
 
 
 @dataclass(eq=False, slots=True)
@@ -35,6 +37,45 @@ class Publications:
 
 
 History = dict[str, Publications]  # by timeline
+
+
+def count_held(
+    tokens: Sequence[TokenRecord],
+    published: Publications,
+    last_tick: int,
+    codes: Mapping[str, PredicateCode],
+    is_own: bool,
+) -> int:
+    """How many publications agree with few active tokens of a timeline; -1 if not all plainly do, one per token."""
+    begun = {one.start: one for one in tokens if one.fate != "cut" and (is_own or one.origin == "observation")}
+    if len(begun) < len(tokens):
+        return -1
+    told: set[Value] = set()
+    count = 0
+    for event in published.single:
+        if event.tick <= last_tick:
+            held = begun.get(event.tick)
+            if held is None or not _agrees(held, event, codes):
+                return -1
+            told.add(event.tick)
+            count += 1
+    for _, each in published.columns:
+        values, kinds = each.arguments.store, each.arguments.kinds
+        for tick, first in zip(each.ticks.tolist(), each.arguments.first.tolist(), strict=True):
+            if tick > last_tick:
+                continue
+            held = begun.get(tick)
+            if held is None or held.predicate.rpartition(".")[2] != each.predicate:
+                return -1
+            if each.parameters != tuple([one.name for one in codes[held.predicate].parameters]):
+                return -1
+            given = values[first : first + len(kinds)].tolist()
+            for mine, kind, number in zip(held.arguments, kinds, given, strict=True):
+                if mine != (number if kind in _NUMBERS or number != number else each.symbols[int(number)]):
+                    return -1
+            told.add(tick)
+            count += 1
+    return count if count == len(told) == len(begun) else -1
 
 
 class BulkTimelines:
@@ -143,7 +184,7 @@ class BulkTimelines:
         if isinstance(tables.tokens, TokenColumns) and _is_same_store(tables.tokens.store, given.store):
             if np.array_equal(tables.tokens.times.values.take(rows), given.first.take(told)):
                 return True  # they are the same numbers
-        numbers, own = SymbolNumbers(published.symbols, tables.texts), arguments.of(kind, rows)
+        numbers, own = SymbolNumbers(published.symbols, tables.texts), arguments(kind, rows)
         columns = enumerate(given._replace(first=given.first.take(told)).columns())
         return all(_are_same(own.column(index), numbers.column(column)) for index, column in columns)
 

@@ -139,8 +139,8 @@ def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, group: AlikeTok
             frame.follow(group.runs[index])
             for step in steps:
                 step(frame)
-                if not tally.holds.any():
-                    return nothing
+            if not tally.holds.any():
+                return nothing
     except UnplainError:
         return nothing
     tally.hand_over(bench, tally.holds)

@@ -79,6 +79,13 @@ class Column:
         upper, bad = (None if each is None else each[first:last] for each in (self.upper, self.bad))
         return self._made(lower, upper, bad)
 
+    def spread(self, rows: Array, count: int) -> "Column":
+        """The column with its rows among `count`; the others have the value of the first."""
+        if len(self.lower) == 1:
+            return self
+        upper, bad = (None if each is None else _spread(each, rows, count) for each in (self.upper, self.bad))
+        return Column(self.kind, _spread(self.lower, rows, count), upper, bad)
+
     def value(self, row: int, texts: Texts) -> Value:
         """The value of one row."""
         lower = self.lower[row]
@@ -96,6 +103,12 @@ class Column:
             found = self.lower[rows].tolist()
             return [texts.names[each] for each in found] if self.kind == TEXT else found
         return [self.value(row, texts) for row in rows.tolist()]
+
+
+def _spread(values: Array, rows: Array, count: int) -> Array:
+    found = np.full(count, values[0])
+    found[rows] = values
+    return found
 
 
 def column_of(values: Sequence[Value], texts: Texts) -> Column:

@@ -47,6 +47,11 @@ def _start(seed: int, name: str) -> int:
 
 def _shares(seed: int, name: str, indices: Array) -> Array:
     """The numbers in [0, 1) that the stream of `name` has at `indices`."""
+    if len(indices) == 1:  # of a single token, for which arrays are slow
+        word = (_start(seed, name) + (int(indices[0]) + 1) * _STEP) % _WORD
+        word = (word ^ word >> 30) * 0xBF58476D1CE4E5B9 % _WORD
+        word = (word ^ word >> 27) * 0x94D049BB133111EB % _WORD
+        return np.array([((word ^ word >> 31) >> 11) / 2**53])
     steps = (indices.astype(_U) + _U(1)) * _U(_STEP)
     return (_stir(_U(_start(seed, name)) + steps) >> _U(11)).astype(float) / 2**53
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from checker.judge.bench import Bench, Tok
 from checker.judge.choosing import may_be_outside, nearest_of
 from checker.judge.meanings import equal
-from checker.judge.operands import BodyFrame, VariableNames, reader
+from checker.judge.operands import BodyFrame, VariableNames, member_of, reader
 from checker.judge.relations import OE, OS, TE, demands
 from checker.judge.values import difference, ends_of, hull
 from compiler.program import END, OBJECT, START, Child, Relate
@@ -65,6 +65,9 @@ def child_step(child: Child, names: VariableNames) -> Step:
             return
         if tok.is_cut or first.is_cut:
             bench.skip("a token that was cut off by a repair")
+            return
+        if not tok.is_planned and member_of(bench, names, tok.values[OBJECT], "mode") == "Ignore":
+            bench.skip("a child on a timeline that the model ignores")
             return
         if not tok.is_planned and _is_due(bench, first, tok, pairs):
             bench.report("child", label, (parent, tok), (), tok.record.state, "was due and never came", child.span)

@@ -3,14 +3,14 @@
 They are read for what is judged of many tokens at once; what else the judge asks of a record it asks token by token.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from checker.judge.alike import SymbolNumbers
 from checker.judge.columns import INT, TEXT, Array, Column, Mask, Texts, column_of, distinct, joined
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START
-from runtime.executive.columns import ORIGINS, StoredValues, TokenColumns
+from runtime.executive.columns import ORIGINS, StoredColumn, TokenColumns
 from runtime.executive.record import NOBODY, ReactorRecord, TokenRecord
 
 _SPARSE = 4
@@ -18,8 +18,36 @@ _DEEPEST = 64  # merged into what is merged into ...
 _ACTIVE, _MERGED = 0, 1
 
 
-class _Arguments:
-    """The arguments of all tokens that stand for themselves: of each predicate a table, read when first asked for."""
+class _Stored:
+    """Arguments of tokens of one predicate that the record keeps in a store; what has not begun has none."""
+
+    def __init__(self, tokens: TokenColumns, numbers: SymbolNumbers, predicate: int, rows: Array) -> None:
+        self.store = tokens.store
+        self.numbers = numbers
+        self.kinds = tokens.kinds[predicate]
+        self.first = tokens.times.values.take(rows)
+        self.missing: Mask | None = None
+        if len(rows) and self.first.min() < 0:
+            self.missing = self.first < 0
+            self.first = np.maximum(self.first, 0)
+
+    def column(self, number: int) -> Column:
+        """An argument, by the number of its parameter; bad where there is none."""
+        count = len(self.first)
+        if not 0 <= number < len(self.kinds):
+            return _no_column(count)
+        column = self.numbers.column(StoredColumn(self.kinds[number], self.store, self.first, number).part(0, count))
+        if self.missing is not None:
+            column.bad = self.missing if column.bad is None else self.missing | column.bad
+        return column
+
+
+def _no_column(count: int) -> Column:
+    return Column(TEXT, np.zeros(count, np.int64), None, np.ones(count, bool))
+
+
+class _Listed:
+    """The arguments of tokens that are on record one by one: of each predicate a table, read when first asked for."""
 
     def __init__(self, tokens: Sequence[TokenRecord], predicates: Array, texts: Texts) -> None:
         self.tokens = tokens
@@ -34,27 +62,9 @@ class _Arguments:
         if known is None:
             own = np.flatnonzero(self.predicates == predicate)
             self.indices[own] = np.arange(len(own))
-            known = self.read[predicate] = self._stored(predicate, own) or self._listed(own)
+            given = [self.tokens[row].arguments for row in own.tolist()]
+            known = self.read[predicate] = [column_of(each, self.texts) for each in zip(*given, strict=False)]
         return _Picked(known, self.indices.take(rows))
-
-    def _listed(self, rows: Array) -> list[Column]:
-        """Arguments that are on record token by token."""
-        given = [self.tokens[row].arguments for row in rows.tolist()]
-        return [column_of(each, self.texts) for each in zip(*given, strict=False)]
-
-    def _stored(self, predicate: int, rows: Array) -> list[Column]:
-        """Arguments that the record keeps in a store; what has not begun has none."""
-        if not isinstance(self.tokens, TokenColumns):
-            return []
-        first = self.tokens.times.values.take(rows)
-        missing = first < 0
-        stored = StoredValues(self.tokens.store, np.maximum(first, 0), self.tokens.kinds[predicate])
-        numbers = SymbolNumbers(self.tokens.symbols, self.texts)
-        columns = [numbers.column(each) for each in stored.columns()]
-        if missing.any():
-            for each in columns:
-                each.bad = missing if each.bad is None else missing | each.bad
-        return columns
 
 
 class _Picked:
@@ -70,9 +80,12 @@ class _Picked:
         """An argument, by the number of its parameter; bad where there is none."""
         count = len(self.indices)
         if not 0 <= number < len(self.columns):
-            return Column(TEXT, np.zeros(count, np.int64), None, np.ones(count, bool))
+            return _no_column(count)
         column = self.columns[number]
         return column.take(self.indices) if self.first == NOBODY else column.part(self.first, self.first + count)
+
+
+_Reader = Callable[[int, Array], _Stored | _Picked]  # the arguments of tokens of one predicate
 
 
 class Tables:
@@ -93,8 +106,12 @@ class Tables:
             self._rows = np.full(int(self.keys[-1]) + 1, NOBODY)
             self._rows[self.keys] = np.arange(self.count)
         self.standing = self._standing()
-        own = np.where(self.standing == np.arange(self.count), self.predicate, NOBODY)
-        self.arguments = _Arguments(record.tokens, own, self.texts)
+        if isinstance(record.tokens, TokenColumns):
+            stored, numbers = record.tokens, SymbolNumbers(record.tokens.symbols, self.texts)
+            self.arguments: _Reader = lambda predicate, rows: _Stored(stored, numbers, predicate, rows)
+        else:
+            own = np.where(self.standing == np.arange(self.count), self.predicate, NOBODY)
+            self.arguments = _Listed(record.tokens, own, self.texts).of
 
     def _read(self, tokens: Sequence[TokenRecord]) -> None:
         """Read tokens one by one."""
@@ -176,7 +193,7 @@ class RowTokens:
         self._rows: Array | None = rows if whole is None else None
         self._standing: Array | None = None
         self._columns: dict[int, Column] = {}
-        self._arguments: list[tuple[Mask, _Picked]] | None = None
+        self._arguments: list[tuple[Mask, _Stored | _Picked]] | None = None
 
     @property
     def rows(self) -> Array:
@@ -219,13 +236,13 @@ class RowTokens:
             return self._arguments[0][1].column(number)
         return joined([(rows, each.column(number)) for rows, each in self._arguments], len(self))
 
-    def _sort(self) -> list[tuple[Mask, _Picked]]:
+    def _sort(self) -> list[tuple[Mask, _Stored | _Picked]]:
         """The arguments by predicate, with the rows of each."""
         kinds, indices = distinct(self.tables.predicate.take(self.standing))
         if len(kinds) == 1:
-            return [(indices == 0, self.tables.arguments.of(kinds[0], self.standing))]
+            return [(indices == 0, self.tables.arguments(kinds[0], self.standing))]
         found = []
         for k, kind in enumerate(kinds):
             rows = indices == k
-            found.append((rows, self.tables.arguments.of(kind, self.standing[rows])))
+            found.append((rows, self.tables.arguments(kind, self.standing[rows])))
         return found

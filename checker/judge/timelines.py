@@ -3,7 +3,7 @@
 from math import inf
 
 from checker.judge.bench import Bench, Tok
-from checker.judge.bulk_timelines import BulkTimelines, History, Publications
+from checker.judge.bulk_timelines import BulkTimelines, History, Publications, count_held
 from checker.judge.operands import domain_value
 from checker.judge.tables import Tables
 from checker.judge.tokens import ProgramJudge
@@ -78,6 +78,11 @@ def judge_timelines(
     for timeline in shared:
         if timeline not in told:
             tokens = found.get(timeline, [])
+            records = [tok.record for tok in tokens]
+            count = count_held(records, past[timeline], bench.last_tick, judge.codes, timeline in internal)
+            if count >= 0:
+                bench.judged += count
+                continue
             published = past[timeline].events(bench.last_tick)
             _judge_observations(judge, bench, timeline, tokens, published, timeline in internal)
 

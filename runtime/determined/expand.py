@@ -16,11 +16,10 @@ from runtime.executive.columns import (
     Array,
     GuardColumns,
     RunColumns,
+    StoredColumn,
     TokenColumns,
     TokenGroup,
     TokenTimes,
-    table_of,
-    value_column,
 )
 from runtime.executive.record import NOBODY, BodyRun, ReactorRecord, TokenRecord, Value, ValueRange
 
@@ -248,13 +247,14 @@ class _Expansion:
 
 
 class _BlockRuns:
-    """Runs of one block: the keys of the children of each, and a row of what each register shows."""
+    """Runs of one block: the keys of the children of each, and where a run shows its registers."""
 
     def __init__(self, expansion: _Expansion, block: int, first: Array, shown: Array) -> None:
         self.keys = np.asarray(expansion.walk.child_keys)
         self.first = first
         self.indices = expansion.program.shown_indices[block]
-        self.table = table_of(expansion.values, shown, len(self.indices))
+        self.values = expansion.values
+        self.shown = shown
         self.numbers = {
             (each.token.parent, each.token.rule, each.token.slot): each.number
             for each in expansion.program.readings(block)
@@ -262,20 +262,19 @@ class _BlockRuns:
 
     def run(self, body: BodyReading, rows: Array | None) -> RunColumns:
         """What one body did in some runs; in all if `rows` is None."""
-        first = self.first if rows is None else self.first.take(rows)
+        first, shown = self.first, self.shown
+        if rows is not None:
+            first, shown = first.take(rows), shown.take(rows)
         return RunColumns(
             body.rule,
-            tuple([value_column(self._register(register, rows), kind) for register, kind in body.named]),
+            tuple([StoredColumn(kind, self.values, shown, self.indices[name]) for name, kind in body.named]),
             tuple([self.keys.take(first + self.numbers[child]) for child in body.children]),
             tuple([self._guard(guard, rows) for guard in body.guards]),
         )
 
-    def _register(self, register: int, rows: Array | None) -> Array:
-        found: Array = self.table[self.indices[register]]
-        return found if rows is None else found.take(rows)
-
     def _guard(self, guard: GuardReading, rows: Array | None) -> GuardColumns:
-        is_true = self._register(guard.register, rows) != 0.0
+        shown = self.shown if rows is None else self.shown.take(rows)
+        is_true = self.values.take(shown + self.indices[guard.register]) != 0.0
         branches = (guard.then, np.flatnonzero(is_true)), (guard.otherwise, np.flatnonzero(~is_true))
         return GuardColumns(is_true, *[self._branch(body, rows, taken) for body, taken in branches])
 

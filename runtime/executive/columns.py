@@ -22,6 +22,19 @@ class ValueColumn(NamedTuple):
     has_open: bool
 
 
+class StoredColumn(NamedTuple):
+    """One value per row, `offset` behind the first of its row in a store; read in parts."""
+
+    kind: str
+    store: Array
+    first: Array
+    offset: int
+
+    def part(self, begin: int, end: int) -> ValueColumn:
+        """The values of the rows from one on to before another."""
+        return _value_column(self.store.take(self.first[begin:end] + self.offset), self.kind)
+
+
 class StoredValues(NamedTuple):
     """Values of rows in one store: row by row side by side, the first of each row at `first`."""
 
@@ -32,7 +45,7 @@ class StoredValues(NamedTuple):
     def columns(self) -> tuple[ValueColumn, ...]:
         """The values of all rows."""
         table = table_of(self.store, self.first, len(self.kinds))
-        return tuple([value_column(numbers, kind) for numbers, kind in zip(table, self.kinds, strict=True)])
+        return tuple([_value_column(numbers, kind) for numbers, kind in zip(table, self.kinds, strict=True)])
 
 
 def table_of(store: Array, first: Array, width: int) -> Array:
@@ -57,7 +70,7 @@ class RunColumns(NamedTuple):
     """Runs of one rule; the keys of its children."""
 
     rule: int
-    locals: tuple[ValueColumn, ...]
+    locals: tuple[StoredColumn, ...]
     children: tuple[Array, ...]
     guards: tuple[GuardColumns, ...]
 
@@ -172,7 +185,7 @@ class TokenColumns(Sequence[TokenRecord]):
         return hash(tuple(self))
 
 
-def value_column(numbers: Array, kind: str) -> ValueColumn:
+def _value_column(numbers: Array, kind: str) -> ValueColumn:
     """The column of numbers as registers hold them."""
     has_open = bool(np.isnan(numbers.sum())) and bool(np.isnan(numbers).any())
     name = kind if kind in ("int", "bool", "float") else "name"

@@ -8,10 +8,11 @@ import pytest
 from checker.batch.result import MissionResult
 from checker.batch.worker import Load, Task, fly_one
 from checker.buckets import group_failures
-from checker.causes import culprit_of, draws_behind, events_to_abort
+from checker.causes import draws_behind, events_to_abort
 from checker.conditions.find import find_condition
 from checker.conditions.flights import Refly
 from checker.conditions.rendering import condition_text
+from checker.culprit import culprit_of
 from checker.mission import read_mission
 from checker.oracle import Judgement, Verdict
 from checker.sampling.seeds import mission_seed

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from checker.causes import culprit_of, failed_by
+from checker.causes import failed_by
+from checker.culprit import culprit_of
 from checker.logged import read_mission_log
 from checker.mission import read_mission
 from checker.models import load_models

@@ -7,12 +7,14 @@ from typing import Any
 
 import pytest
 
+from checker.judge.judge import judge_mission
+from checker.judge.rendering import disagreement_text
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.oracle import judge
 from checker.pinned import programs_of
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.mission import MissionPrograms, run_mission
+from runtime.executive.mission import MissionPrograms, record_mission, run_mission
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import event_data
 
@@ -39,7 +41,9 @@ def told(outcome: Outcome) -> list[Data]:
 def test_what_must_come_out_does(folder: Path) -> None:
     expected = json.loads((folder / "expected.json").read_text())
     agent, programs = loaded(folder)
-    outcome = run_mission(agent, programs, 1)
+    outcome, record = record_mission(agent, programs, 1)
+    judged = judge_mission(agent, programs.programs, outcome, record, programs.constraints)
+    assert [disagreement_text(one) for one in judged.disagreements] == []
     judgement = judge(outcome)
     codes = expected["code"] if isinstance(expected["code"], list) else [expected["code"]]
     assert judgement.verdict.value == expected["verdict"]

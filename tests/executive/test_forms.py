@@ -1,25 +1,46 @@
 """Mutants of missions fly alike compiled and interpreted, determined or not, and the judge agrees."""
 
 import random
+import time
 
 import pytest
 
+from checker.counterfactual.search import sites_in
+from checker.mission import read_mission
 from checker.mutation.edits import EditKind
-from tests.executive.mutants.campaign import departures, flown
-from tests.executive.mutants.flights import FILES, edit_of
+from runtime.user.limit import WATCH
+from tests.executive.mutants.campaign import Campaign, departures
+from tests.executive.mutants.flights import FILES, SlowError, at_most, edit_of
 
-COUNT = 60
+COUNT = 40
 MISSIONS = 2
 
 
 @pytest.mark.slow
-def test_mutants_fly_alike_in_both_forms() -> None:
-    compiled, interpreted = (flown(form, 0, COUNT, MISSIONS, seconds) for form, seconds in (("", 20), ("1", 600)))
-    assert [line for line in [*compiled, *interpreted] if line.startswith("WRONG")] == []
-    assert departures(compiled, interpreted) == []
-    codes = {line.split()[4] for line in compiled if len(line.split()) > 5}
-    assert codes >= {"ended", "F1"}
-    assert len({line.split()[0] for line in compiled}) == COUNT
+@pytest.mark.parametrize(("only", "count", "codes"), [("", COUNT, {"ended", "F1"}), ("models/auv", 2, {"ended"})])
+def test_mutants_fly_alike_in_both_forms(only: str, count: int, codes: set[str]) -> None:
+    campaign = Campaign(seconds=20, whole=40, until=400, only=only, general=1)
+    tally = campaign.tried(0, count, MISSIONS, both=True)
+    assert tally.wrong == []
+    assert set(tally.codes) >= codes
+    sums = {kind: sum(n for (_, each), n in tally.counts.items() if each == kind) for _, kind in tally.counts}
+    assert sums["mutants"] >= 0.9 * count
+    assert sums["in both forms"] >= 0.9 * sums["flights"]
+
+
+def test_only_what_takes_long_is_slow() -> None:
+    with pytest.raises(SlowError), at_most(0.05):
+        busy(1.0)
+    with at_most(30.0):
+        WATCH.start()
+        time.sleep(2.5 * WATCH.step)
+
+
+def busy(seconds: float) -> None:
+    """Take so much of the processor's time."""
+    end = time.process_time() + seconds
+    while time.process_time() < end:
+        pass
 
 
 def test_departures_are_found() -> None:
@@ -31,9 +52,10 @@ def test_departures_are_found() -> None:
 @pytest.mark.once
 def test_a_fault_of_every_kind_is_drawn() -> None:
     chance = random.Random(1)
-    models = [model for file in FILES for model in sorted(file.parent.glob("*.nddl"))]
-    drawn = [edit for _ in range(20) for model in models if (edit := edit_of(model, chance)) is not None]
-    assert {edit.kind for edit in drawn} == set(EditKind) - {
-        EditKind.MISSION,
-        EditKind.VALUE,
-    }  # whose lines these models lack
+    drawn = set()
+    for file in FILES:
+        mission, _ = read_mission(file)
+        assert mission is not None
+        sites = sites_in(mission.agent)
+        drawn |= {edit.kind for _ in range(20) if (edit := edit_of(sites, chance)) is not None}
+    assert drawn == set(EditKind) - {EditKind.MISSION}  # which is of no model

@@ -1,6 +1,7 @@
 """The tree-sitter grammar beside the parser of nddlc: in every model the same statements and the same grouping."""
 
 import ctypes
+import json
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -43,11 +44,10 @@ KINDS = {
 @pytest.fixture(scope="module")
 def language(tmp_path_factory: pytest.TempPathFactory) -> Language:
     """The grammar, compiled as an editor does it."""
-    sys.path.insert(0, str(ROOT / "build_backend"))
-    from engine_build import machine_compiler, zig_compiler
-
+    script = "import json, engine_build as one; print(json.dumps(one.machine_compiler() or one.zig_compiler()))"
+    asked = subprocess.run([sys.executable, "-c", script], cwd=ROOT / "build_backend", check=True, capture_output=True)
+    compiler = json.loads(asked.stdout)
     target = tmp_path_factory.mktemp("grammar") / "nddl.so"
-    compiler = machine_compiler() or zig_compiler()
     assert compiler is not None, "the engine was compiled, so there is a compiler"
     source = GRAMMAR / "src" / "parser.c"
     subprocess.run(
@@ -139,6 +139,18 @@ def test_every_word_of_the_language_is_a_word_of_the_grammar(language: Language)
 @pytest.mark.parametrize("name", QUERIES)
 def test_the_queries_of_editors_fit_the_grammar(language: Language, name: str) -> None:
     assert Query(language, (ROOT / name).read_text()).capture_count > 0
+
+
+@pytest.mark.parametrize(
+    ("copy", "source"),
+    [("zed/languages/nddl/highlights.scm", "highlights.scm"), ("helix/queries/nddl/locals.scm", "locals.scm")],
+)
+def test_copies_of_queries_are_alike(copy: str, source: str) -> None:
+    """An editor takes its whole folder, so it has its own."""
+    theirs, ours = ((GRAMMAR.parent / copy).read_text(), (GRAMMAR / "queries" / source).read_text())
+    assert [line for line in theirs.splitlines() if line[:1] != ";"] == [
+        line for line in ours.splitlines() if line[:1] != ";"
+    ]
 
 
 def test_a_text_that_is_being_typed_keeps_what_is_whole(language: Language) -> None:

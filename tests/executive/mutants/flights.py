@@ -1,32 +1,41 @@
 """Fly mutants of missions and print one line for each flight: run it as a module, in either form of the engine.
 
-Each flight is judged; with the engine compiled, determined reactors are flown by the general engine too. What must not
-be is said in a line that begins with `WRONG`.
+Each flight is judged. With the engine compiled, determined reactors are flown by the general engine too, and all
+missions once more by two other processes, each its share from the last to the first, as two workers of a batch may.
+What must not be is said in a line that begins with `WRONG`.
 """
 
 import random
-import shutil
 import signal
 import sys
-import tempfile
+import time
 from argparse import ArgumentParser
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from hashlib import sha256
+from multiprocessing import get_context
 from pathlib import Path
 from types import FrameType
 
 from runtime.build_form import interpreting_is_asked
+from checker.counterfactual.search import sites_in
 from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.mutation.edits import EditKind, SmallEdit, edited, sites_of
-from checker.mutation.variant import load_graph
-from checker.pinned import programs_of
-from nddl_lang.text.read import real_path
+from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from checker.mutation.variant import open_over, with_edit
+from checker.pinned import pinned
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.mission import MissionPrograms, record_mission, run_mission
+from runtime.executive.mission import (
+    MissionPrograms,
+    UnusableModelError,
+    record_mission,
+    register_program,
+    run_mission,
+)
+from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import trace_json
 from tests.executive.determined_models import told
 
@@ -38,7 +47,9 @@ FILES = sorted(
     ]
 )
 
-TRIALS = 6  # until a mutant is a model
+TRIALS = 20  # until a mutant is a model
+SHARES = 2
+WITHOUT_CHANCE = 3  # missions of a mutant that samples nothing: all are alike
 
 
 class SlowError(Exception):
@@ -46,96 +57,185 @@ class SlowError(Exception):
 
 
 @contextmanager
-def at_most(seconds: int) -> Iterator[None]:
-    """Raise `SlowError` in what takes longer."""
+def at_most(seconds: float) -> Iterator[None]:
+    """Raise `SlowError` in what takes more of the processor's time: the alarm of real time watches a modeler's code."""
 
     def ring(number: int, frame: FrameType | None) -> None:
         raise SlowError
 
-    before = signal.signal(signal.SIGALRM, ring)
-    signal.alarm(seconds)
+    before = signal.signal(signal.SIGPROF, ring)
+    signal.setitimer(signal.ITIMER_PROF, max(seconds, 0.001))
     try:
         yield
     finally:
-        signal.alarm(0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
 
 
-def edit_of(model: Path, chance: random.Random) -> SmallEdit | None:
-    """One small fault of a text, of a kind and at a place that chance draws; None where there is nothing to change."""
-    file = str(real_path(model))
+def edit_of(sites: Sequence[EditSite], chance: random.Random) -> SmallEdit | None:
+    """One small fault of a kind and at a place that chance draws; None where there is nothing to change."""
     kinds: dict[EditKind, list[SmallEdit]] = {}
-    for site in sites_of(load_graph(model, ())):
-        for edit in site.edits if site.file == file else ():
+    for site in sites:
+        for edit in site.edits:
             kinds.setdefault(edit.kind, []).append(edit)
     return chance.choice(kinds[chance.choice(list(kinds))]) if kinds else None
 
 
-def lines_of(number: int, missions: int, seconds: int) -> Iterator[str]:
-    """What mutant `number` does in a number of missions."""
-    chance = random.Random(number)
-    file = FILES[chance.randrange(len(FILES))]
-    with tempfile.TemporaryDirectory() as scratch:
-        place = Path(scratch) / "mission"
-        shutil.copytree(file.parent, place)
-        mission, _ = read_mission(place / file.name)
-        assert mission is not None
-        models = sorted(place.glob("*.nddl"))
-        kind, read = "", load_models(mission)
-        for _ in range(TRIALS):
-            model = models[chance.randrange(len(models))]
-            whole = model.read_text()
-            edit = edit_of(model, chance)
-            if edit is None:
-                continue
-            kind = edit.kind.value
-            model.write_text(edited(whole, edit))
-            read = load_models(mission)
-            if not read.has_errors:
-                break
-            model.write_text(whole)
-        name = f"{number} {file.parent.name} {kind.replace(' ', '_') or 'none'}"
-        if read.has_errors:
-            yield f"{name} invalid"
-            return
-        programs = programs_of(read.agent)
-        for seed in range(missions):
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What a mutant's missions may take: seconds of one flight and of all, and the tick at which they are ended.
+
+    Seconds are those of the processor.
+    """
+
+    seconds: float = 60.0
+    whole: float = 600.0
+    until: int | None = None
+    general: int = sys.maxsize  # the missions of a mutant that the general engine flies too
+
+
+@dataclass(frozen=True, slots=True)
+class Mutant:
+    """A mission with a fault in one of its models."""
+
+    name: str
+    agent: AgentConfiguration
+    programs: MissionPrograms
+    limits: Limits
+    is_determined: bool  # some reactor is, and is flown as register code
+
+    def told(self, outcome: Outcome) -> str:
+        """How a mission ended, and the digest of its trace."""
+        trace = "\n".join(map(trace_json, outcome.events)).replace(str(ROOT), "")
+        code = outcome.abort.code if outcome.abort is not None else "F10" if outcome.open_goals else "ended"
+        return f"{code} {outcome.last_tick} {sha256(trace.encode()).hexdigest()[:16]}"
+
+    def lines(self, seed: int) -> Iterator[str]:
+        """One flight, and what is wrong about it."""
+        outcome, record = record_mission(self.agent, self.programs, seed, until=self.limits.until)
+        report = judge_mission(self.agent, self.programs.programs, outcome, record, self.programs.constraints)
+        yield f"{self.name} {seed} {self.told(outcome)}"
+        for one in report.disagreements:
+            said = " ".join(disagreement_text(one).split()).replace(str(ROOT), "")
+            yield f"WRONG {self.name} {seed} judge: {said}"
+        if self.is_determined and seed < self.limits.general and not interpreting_is_asked():
+            general = run_mission(self.agent, self.programs, seed, until=self.limits.until, compiles=False)
+            if told(general) != told(outcome):
+                yield f"WRONG {self.name} {seed} the determined form tells something else than the general engine"
+
+    def share(self, seeds: Sequence[int]) -> list[str]:
+        """What these missions come to, flown from the last to the first."""
+        found = []
+        for seed in reversed(seeds):
             try:
-                with at_most(seconds):
-                    yield from _flight(f"{name} {seed}", read.agent, programs, seed, str(place))
+                with at_most(self.limits.seconds):
+                    outcome, _ = record_mission(self.agent, self.programs, seed, until=self.limits.until)
+                    found.append(f"{self.name} {seed} {self.told(outcome)}")
             except SlowError:
-                yield f"{name} {seed} slow"
-                return
+                continue
             except Exception as problem:
-                said = " ".join(str(problem).replace(str(place), "").split())
-                yield f"WRONG {name} {seed} error {type(problem).__name__}: {said}"
-                return
+                found.append(f"{self.name} {seed} error {type(problem).__name__}")
+        return found
 
 
-def _flight(name: str, agent: AgentConfiguration, programs: MissionPrograms, seed: int, place: str) -> Iterator[str]:
-    outcome, record = record_mission(agent, programs, seed)
-    report = judge_mission(agent, programs.programs, outcome, record, programs.constraints)
-    trace = "\n".join(map(trace_json, outcome.events)).replace(place, "")
-    code = outcome.abort.code if outcome.abort is not None else "F10" if outcome.open_goals else "ended"
-    yield f"{name} {code} {outcome.last_tick} {sha256(trace.encode()).hexdigest()[:16]}"
-    for disagreement in report.disagreements:
-        yield f"WRONG {name} judge: {' '.join(disagreement_text(disagreement).split())}".replace(place, "")
-    if not interpreting_is_asked() and told(run_mission(agent, programs, seed, compiles=False)) != told(outcome):
-        yield f"WRONG {name} the determined form tells something else than the general engine"
+def mutant_of(number: int, files: Sequence[Path], limits: Limits) -> tuple[str, Mutant | None]:
+    """The name of mutant `number`, and the mutant itself, unless nothing that was tried is a model."""
+    chance = random.Random(number)
+    file = files[chance.randrange(len(files))]
+    mission, _ = read_mission(file)
+    assert mission is not None
+    place = str(file.parent.relative_to(ROOT)).replace(" ", "_")
+    sites = sites_in(mission.agent)
+    for _ in range(TRIALS):
+        edit = edit_of(sites, chance)
+        if edit is None:
+            break
+        models = load_models(mission, open_over(with_edit((), edit)))
+        if not models.has_errors:
+            at = f"{Path(edit.file).name}:{edit.line}"
+            name = f"{number} {place} {edit.kind.value.replace(' ', '_')}@{at}"
+            programs = pinned(models).programs_of(models.agent)
+            return name, Mutant(name, models.agent, programs, limits, _is_determined(models.agent, programs))
+    return f"{number} {place} none", None
+
+
+def _is_determined(agent: AgentConfiguration, programs: MissionPrograms) -> bool:
+    """Whether any reactor is; one whose script needs what is drawn is asked in flight."""
+    try:
+        return any(register_program(agent, programs, each) is not None for each in range(len(agent.reactors)))
+    except UnusableModelError:
+        return True
+
+
+def lines_of(number: int, missions: int, files: Sequence[Path], limits: Limits) -> Iterator[str]:
+    """What mutant `number` does in a number of missions, within a time for each of them and for all."""
+    name, mutant = mutant_of(number, files, limits)
+    if mutant is None:
+        yield f"{name} 0 invalid"
+        return
+    if not mutant.agent.parameters and not mutant.agent.coded:
+        missions = min(missions, WITHOUT_CHANCE)
+    end = time.process_time() + limits.whole
+    carried_out: dict[int, str] = {}
+    for seed in range(missions):
+        lines: list[str] = []
+        try:
+            with at_most(min(limits.seconds, end - time.process_time())):
+                lines.extend(mutant.lines(seed))
+        except SlowError:
+            yield f"{name} {seed} slow"
+            break
+        except Exception as problem:
+            said = " ".join(str(problem).replace(str(ROOT), "").split())
+            yield f"WRONG {name} {seed} error {type(problem).__name__}: {said}"
+            break
+        yield from lines
+        carried_out[seed] = lines[0]
+    if not interpreting_is_asked():
+        yield from _shares_that_differ(mutant, carried_out)
+
+
+def _shares_that_differ(mutant: Mutant, carried_out: dict[int, str]) -> Iterator[str]:
+    """What comes of a mission otherwise when another process flies it, after others."""
+    context = get_context("fork")
+    for share in range(SHARES):
+        ours, theirs = context.Pipe()
+        seeds = list(carried_out)[share::SHARES]
+        process = context.Process(target=_fly_share, args=(mutant, seeds, theirs))
+        process.start()
+        theirs.close()  # so that the end of the process is seen
+        for line in ours.recv():
+            if line != carried_out[int(line.split()[3])]:
+                yield f"WRONG another worker flies otherwise: {line} instead of {carried_out[int(line.split()[3])]}"
+        process.join()
+
+
+def _fly_share(mutant: Mutant, seeds: Sequence[int], to) -> None:  # type: ignore[no-untyped-def]
+    to.send(mutant.share(seeds))
 
 
 def main() -> None:
-    """Fly mutants FIRST to LAST - 1."""
+    """Fly mutants, each in as many missions as is said."""
     parser = ArgumentParser()
-    parser.add_argument("first", type=int)
-    parser.add_argument("last", type=int)
-    parser.add_argument("--missions", type=int, default=20)
-    parser.add_argument("--seconds", type=int, default=60)
+    parser.add_argument("mutants", nargs="+", metavar="NUMBER:MISSIONS")
+    parser.add_argument("--seconds", type=float, default=60.0, help="for one flight")
+    parser.add_argument("--whole", type=float, default=600.0, help="seconds for all flights of a mutant")
+    parser.add_argument("--until", type=int, help="the tick at which missions are ended")
+    parser.add_argument("--general", type=int, default=sys.maxsize, help="missions that the general engine flies too")
+    parser.add_argument("--only", default="", help="what the paths of mission files begin with")
     given = parser.parse_args()
-    for number in range(given.first, given.last):
-        for line in lines_of(number, given.missions, given.seconds):
+    files = files_below(given.only)
+    limits = Limits(given.seconds, given.whole, given.until, given.general)
+    for each in given.mutants:
+        number, missions = map(int, each.split(":"))
+        for line in lines_of(number, missions, files, limits):
             print(line)
             sys.stdout.flush()
+
+
+def files_below(start: str) -> list[Path]:
+    """The mission files whose path in the project begins with `start`."""
+    return [file for file in FILES if str(file.relative_to(ROOT)).startswith(start)]
 
 
 if __name__ == "__main__":

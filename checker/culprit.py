@@ -1,0 +1,112 @@
+"""A conflict in, the line where draw and model collide out: the written limit farthest from what the world did.
+
+The elements of a conflict hang together by the variables they share. Workers read this file for each mission.
+"""
+
+from dataclasses import dataclass
+
+from runtime.executive.outcome import Conflict, ConflictElement, ElementKind, SourcePlace
+from runtime.plan.readout.names import VariableName
+
+# Kinds of elements that no line of the model can help.
+_WORLD = (
+    ElementKind.SAMPLE,
+    ElementKind.OBSERVATION,
+    ElementKind.REQUEST,
+    ElementKind.CLOCK,
+)
+_VALUES = (ElementKind.ASSIGNMENT, ElementKind.DECLARATION)
+_LIMITS = ("leq", "lt", "neq", "bounds", "withinBounds", "precedes", "strictlyPrecedes")
+
+
+@dataclass(frozen=True, slots=True)
+class Culprit:
+    """The element of a conflict where draw and model collide, and the lines that set what it compares with.
+
+    `number` is its index in the conflict, -1 where no element is written anywhere; then `at` may name a line.
+    """
+
+    number: int = -1
+    element: ConflictElement | None = None
+    limits: tuple[SourcePlace, ...] = ()
+    at: SourcePlace | None = None
+
+    @property
+    def place(self) -> SourcePlace | None:
+        """Its line in the model."""
+        return self.element.place if self.element is not None else self.at
+
+
+def culprit_of(conflict: Conflict | None) -> Culprit:
+    """The written limit that stands farthest from what the world did."""
+    if conflict is None:
+        return Culprit()
+    elements = conflict.elements
+    neighbours = _neighbours(conflict)
+    roots = _roots(conflict, (ElementKind.SAMPLE,)) or _roots(conflict, _WORLD)
+    far = _distances(neighbours, roots)
+    candidates = [
+        (_rank(element), -far.get(number, len(elements)), -number)
+        for number, element in enumerate(elements)
+        if element.place is not None and element.kind not in _WORLD
+    ]
+    if not candidates:
+        return Culprit()
+    chosen = -min(candidates)[2]
+    limits = [
+        element.place
+        for number, element in enumerate(elements)
+        if number in neighbours[chosen] and element.kind in _VALUES and element.place != elements[chosen].place
+    ]
+    return Culprit(chosen, elements[chosen], tuple(place for place in dict.fromkeys(limits) if place is not None))
+
+
+def in_telling_order(conflict: Conflict, last: int) -> list[int]:
+    """The numbers of the elements from the draws outwards, `last` at the end; as given where nothing was drawn."""
+    neighbours = _neighbours(conflict)
+    roots = _roots(conflict, (ElementKind.SAMPLE,))
+    far = _distances(neighbours, roots)
+    unknown = len(conflict.elements) if roots else 0
+    return sorted(range(len(conflict.elements)), key=lambda number: (number == last, far.get(number, unknown), number))
+
+
+def _neighbours(conflict: Conflict) -> list[set[int]]:
+    """For each element those that speak of the same variable."""
+    found: list[set[int]] = [set() for _ in conflict.elements]
+    speakers: dict[VariableName, set[int]] = {}
+    for number, element in enumerate(conflict.elements):
+        for variable in element.variables:
+            speakers.setdefault(variable, set()).add(number)
+    for together in speakers.values():
+        for number in together:
+            found[number] |= together - {number}
+    return found
+
+
+def _roots(conflict: Conflict, kinds: tuple[ElementKind, ...]) -> list[int]:
+    return [number for number, element in enumerate(conflict.elements) if element.kind in kinds]
+
+
+def _distances(neighbours: list[set[int]], roots: list[int]) -> dict[int, int]:
+    """How many steps each element is away from the nearest of the roots, where one is connected."""
+    far = dict.fromkeys(roots, 0)
+    front = roots
+    while front:
+        reached = {other for number in front for other in neighbours[number] if other not in far}
+        far |= dict.fromkeys(reached, far[front[0]] + 1)
+        front = sorted(reached)
+    return far
+
+
+def _rank(element: ConflictElement) -> int:
+    """How likely a line is the mistaken one: written limits before values before relations before the rest."""
+    is_limit = any(term.name in _LIMITS for term in element.terms)
+    match element.kind:
+        case ElementKind.CONSTRAINT | ElementKind.DURATION if is_limit:
+            return 0
+        case ElementKind.ASSIGNMENT | ElementKind.DECLARATION:
+            return 1
+        case ElementKind.RELATION | ElementKind.ORDER:
+            return 2
+        case _:
+            return 3
