@@ -9,6 +9,7 @@ from pathlib import Path
 from signal import Signals
 
 from checker.batch.identity import engine_digest, model_digest, run_id
+from checker.batch.interruption import uninterrupted
 from checker.batch.pool import Batch, FlyBatch, fly_all, nothing_more
 from checker.batch.process import Flyer
 from checker.batch.progress import Progress
@@ -22,6 +23,7 @@ from checker.counterfactual.ranking import Causes
 from checker.counterfactual.search import CauseSearch, Suspended
 from checker.counterfactual.trials import Bounds
 from checker.drawn import Drawn, drawn_paths
+from checker.faults import Interruptible
 from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
@@ -154,12 +156,13 @@ class Campaign:
         causes: Mapping[int, Causes] | None = None,
         cases: tuple[FlownCase, ...] = (),
         progress: Callable[[int], None] | None = None,
+        let: Interruptible = uninterrupted,
     ) -> Findings:
         """Judge the results; with `may_fly` conditions are sought and tested by flights, which `progress` counts.
 
         Lines that may be the cause of a fault are tried within `bounds`, for all faults together no longer than
         `seconds`. With a `focus` all that is done only for the fault that mission `focus` belongs to. `conditions`
-        and `causes` are known already, by example.
+        and `causes` are known already, by example. `let` carries out each search, and ends it where a signal comes.
         """
         run, agent = self.run, self.models.agent
         is_flying = may_fly and ending is not Ending.SIGNAL
@@ -170,7 +173,7 @@ class Campaign:
                 changed = with_point(changed, points.get(number, RANDOM_POINT))
                 return self.judged(flyer.fly(changed, number, seed))
 
-            return assess(
+            findings = assess(
                 self.mission,
                 agent,
                 run.id,
@@ -186,7 +189,11 @@ class Campaign:
                 cases=cases,
                 sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),
                 seeker=self._seeker(flyer, bounds, seconds) if is_flying and bounds is not None else None,
+                let=let,
             )
+            if findings.is_cut:
+                flyer.dismiss()  # it may be in the middle of a flight
+            return findings
 
     def contrast(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Contrast | None:
         """What sets a failed mission apart from the nearest one that passes; flown in this process."""
@@ -221,7 +228,7 @@ class Campaign:
             for fault in findings.faults[:_MOST_PAIRS]:
                 example = by_number[fault.bucket.example]
                 near = _nearest_passing(example, findings)
-                if near is None or example.outcome is None or findings.is_interrupted:
+                if near is None or example.outcome is None or findings.is_interrupted or findings.is_cut:
                     found.append(None)
                     continue
                 agent = with_point(self.models.agent, near.point)
@@ -232,7 +239,7 @@ class Campaign:
     def drawn(self, findings: Findings, pairs: Sequence[Pair | None]) -> Drawn | None:
         """The paths that the mission file asks figures of."""
         figures = self.mission.figures
-        if figures is None or findings.is_interrupted:
+        if figures is None or findings.is_interrupted or findings.is_cut:
             return None
         agent = self.models.agent
         with Flyer(self.load, agent, self.mission.check.time_limit) as flyer:

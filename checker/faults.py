@@ -1,14 +1,18 @@
 """Buckets of failures in, faults out: those that the same change mends are one fault, with the causes tried for it."""
 
-from collections.abc import Sequence
-from typing import Protocol
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Protocol, TypeVar
 
+from checker.batch.interruption import uninterrupted
 from checker.batch.result import MissionResult
 from checker.buckets import Bucket, joined
 from checker.counterfactual.examples import examples_of
-from checker.counterfactual.ranking import NO_CAUSES, Causes, RankedLine
+from checker.counterfactual.ranking import CANCELLED, NO_CAUSES, Causes, RankedLine
 from checker.counterfactual.trials import Missions
 from checker.oracle import Verdict
+
+_Found = TypeVar("_Found")
 
 MOST_SOUGHT = 8  # buckets whose causes and conditions are sought by flights
 
@@ -23,17 +27,30 @@ class Seeker(Protocol):
         """Whether the change of a cause makes another failed mission pass, with all goals."""
 
 
+class Interruptible(Protocol):
+    """What carries out a search, and gives None where a signal ends it."""
+
+    def __call__(self, search: Callable[[], _Found], /) -> _Found | None:
+        """What the search finds."""
+
+
 def faults_of(
-    buckets: Sequence[Bucket], results: Sequence[MissionResult], seeker: Seeker
+    buckets: Sequence[Bucket],
+    results: Sequence[MissionResult],
+    seeker: Seeker,
+    let: Interruptible = uninterrupted,
 ) -> list[tuple[Bucket, Causes]]:
-    """The faults behind buckets, each with its causes: what the first cause of one mends, or the same line, is one."""
+    """The faults behind buckets, each with its causes: what the first cause of one mends, or the same line, is one.
+
+    Where a signal ends the search, buckets that it did not come to are faults of their own.
+    """
     by_number = {result.number: result for result in results}
     found: list[tuple[Bucket, Causes]] = []
     for position, bucket in enumerate(buckets):
         causes = NO_CAUSES
-        same = _mended(found, by_number[bucket.example], seeker)
+        same = let(partial(_mended, found, by_number[bucket.example], seeker))
         if same is None and position < MOST_SOUGHT:
-            causes = seeker.causes(missions_of(bucket, results))
+            causes = let(partial(seeker.causes, missions_of(bucket, results))) or CANCELLED
             same = _at_one_line(found, causes)
         if same is None:
             found.append((bucket, causes))

@@ -3,7 +3,9 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import partial
 
+from checker.batch.interruption import uninterrupted
 from checker.batch.result import MissionResult
 from checker.buckets import Bucket, group_failures, joined
 from checker.causes import failed_by
@@ -11,8 +13,9 @@ from checker.conditions.condition import Condition
 from checker.conditions.find import find_condition
 from checker.conditions.flights import Refly
 from checker.conditions.record import Conditions
-from checker.counterfactual.ranking import NO_CAUSES, Causes
-from checker.faults import MOST_SOUGHT, Seeker, faults_of, missions_of
+from checker.counterfactual.ranking import CANCELLED, NO_CAUSES, Causes
+from checker.counterfactual.trials import TrialsEnd
+from checker.faults import MOST_SOUGHT, Interruptible, Seeker, faults_of, missions_of
 from checker.mission import Mission
 from checker.oracle import Verdict
 from checker.proofs.conflict import Confirmation, confirm
@@ -48,6 +51,7 @@ class Fault:
     confirmation: Confirmation | None
     causes: Causes = NO_CAUSES
     interval: Interval | None = None  # of the rate of this fault alone
+    is_cut: bool = False  # a signal ended the search for its condition
 
     @property
     def places(self) -> tuple[SourcePlace, ...]:
@@ -93,6 +97,7 @@ class Findings:
     sampling: Sampling = RANDOMLY
     sensitivities: tuple[Sensitivity, ...] = ()
     cases: tuple[FlownCase, ...] = ()  # regression cases, flown first; they are in no percentage
+    is_cut: bool = False  # a signal ended the search for causes and conditions
     is_stored: bool = True  # so that `nddlc explain` can tell more of it
 
     @property
@@ -137,12 +142,13 @@ def assess(
     causes: Mapping[int, Causes] | None = None,
     text: ModelText | None = None,
     cases: tuple[FlownCase, ...] = (),
+    let: Interruptible = uninterrupted,
 ) -> Findings:
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
     With a `focus` it does so only for the fault that mission `focus` belongs to. So does `seeker`, which finds causes;
     without a focus, buckets of one cause become one fault. `conditions` and `causes` are known already; `text` is what
-    z3 reads the meaning of lines from.
+    z3 reads the meaning of lines from. `let` carries out each search, and ends it where a signal comes.
     """
     by_number = sorted(results, key=lambda result: result.number)
     ordered = tuple(result for result in by_number if result.number > 0)
@@ -159,7 +165,7 @@ def assess(
         rate = replace(rate, exceeds=True, is_certain=True)
     faults: list[Fault] = []
     buckets = _alike(group_failures(ordered), conditions or {})
-    sought = _with_causes(buckets, ordered, seeker, focus, causes or {})
+    sought = _with_causes(buckets, ordered, seeker, focus, causes or {}, let)
     for position, (bucket, found) in enumerate(sorted(sought, key=lambda one: -len(one[0].missions))):
         is_wanted = position < MOST_SOUGHT if focus is None else focus in bucket.missions
         members = set(bucket.missions)
@@ -169,11 +175,13 @@ def assess(
             most_weight=sampling.most_weight,
             is_sequential=sampling.is_sequential,
         )
-        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None, conditions or {}, text)
+        fault = let(partial(_fault, bucket, ordered, agent, seed, refly if is_wanted else None, conditions or {}, text))
+        fault = Fault(bucket, None, None, is_cut=True) if fault is None else fault
         faults.append(replace(fault, interval=interval, causes=found))
+    is_cut = any(one.is_cut or one.causes.ended is TrialsEnd.CANCELLED for one in faults)
     return Findings(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending,
-        sampling, sensitivities(agent, ordered, check.confidence), cases,
+        sampling, sensitivities(agent, ordered, check.confidence), cases, is_cut,
     )  # fmt: skip
 
 
@@ -183,17 +191,18 @@ def _with_causes(
     seeker: Seeker | None,
     focus: int | None,
     known: Mapping[int, Causes],
+    let: Interruptible,
 ) -> list[tuple[Bucket, Causes]]:
     """Buckets, those of one fault joined, with the causes that a seeker finds; with a focus only for its bucket."""
     if seeker is None:
         return [(bucket, NO_CAUSES) for bucket in buckets]
     if focus is None:
-        return faults_of(buckets, results, seeker)
+        return faults_of(buckets, results, seeker, let)
     found: list[tuple[Bucket, Causes]] = []
     for one in buckets:
         causes = known.get(one.example, NO_CAUSES) if focus in one.missions else NO_CAUSES
         if focus in one.missions and not causes.is_sought:
-            causes = seeker.causes(missions_of(one, results, focus))
+            causes = let(partial(seeker.causes, missions_of(one, results, focus))) or CANCELLED
         found.append((one, causes))
     return found
 

@@ -23,10 +23,11 @@ from checker.models import ModelSet, load_models
 from checker.mutation.choice import Mutant, mutants_of
 from checker.mutation.edits import DROPPED, SmallEdit
 from checker.mutation.variant import Overlay, load_over, open_over, with_edit
-from checker.oracle import Verdict, judge_losses
+from checker.oracle import USER_CODE, Verdict, judge_losses
 from checker.pinned import pinned
 from checker.sampling.seeds import mission_seed
 from nddl_lang.text.read import real_path
+from runtime.user.fault import UserCodeError
 
 TOP = 3
 _MOST_SECONDS = 60.0  # for one flight
@@ -96,12 +97,14 @@ def open_flyer(mission: Mission, models: ModelSet) -> Flyer:
 
 
 def prepare(mission: Mission, models: ModelSet, missions: int, flyer: Flyer) -> Ground:
-    """Fly the unchanged mission: where it fails by itself, a mutant would show nothing."""
+    """Fly the unchanged mission: where it fails by itself, a mutant would show nothing; raises UserCodeError."""
     passing, slowest = [], 0.0
     for number in range(1, missions + 1):
         seed = mission_seed(mission.check.seed, number)
         begun = time.monotonic()
         result = _judged(mission, flyer.fly(models.agent, number, seed))
+        if result.judgement.code == USER_CODE:
+            raise UserCodeError(result.judgement.message)
         if result.verdict is Verdict.PASS:
             passing.append((number, seed))
             slowest = max(slowest, time.monotonic() - begun)

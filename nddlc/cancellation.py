@@ -9,6 +9,7 @@ from types import FrameType
 
 import click
 
+from checker.batch.echo import Echo
 from runtime.solver.search import Solver
 from runtime.user.limit import WATCH
 
@@ -26,6 +27,7 @@ class Clock:
         self._begun = self._told = time.monotonic()
         self._is_terminal = sys.stderr.isatty()
         self._before: object = None
+        self._echo = Echo()
 
     def __enter__(self) -> "Clock":
         if threading.current_thread() is threading.main_thread():
@@ -59,6 +61,8 @@ class Clock:
         return now - self._begun + showing >= self.seconds
 
     def _note(self, number: int, frame: FrameType | None) -> None:
+        if self._echo.is_of(number):
+            return
         if self.is_interrupted or WATCH.call is not None:
             WATCH.interrupt(number, frame)
         self.is_interrupted = True

@@ -2,6 +2,7 @@
 
 import json
 import os
+import sys
 from contextlib import ExitStack, suppress
 from dataclasses import replace
 from importlib.util import find_spec
@@ -9,6 +10,7 @@ from pathlib import Path
 
 import click
 
+from checker.batch.interruption import Interruption
 from checker.batch.pool import FlyBatch
 from checker.batch.process import keeping_a_worker
 from checker.batch.result import write_record
@@ -136,7 +138,7 @@ def command(
             flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show, promoted=promoted)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
-    with SeekingDisplay() as seeking:
+    with SeekingDisplay() as seeking, Interruption() as interruption:
         findings = campaign.assess(
             flown.results,
             ending=flown.ending,
@@ -145,12 +147,14 @@ def command(
             seconds=_SECONDS,
             cases=flown.cases,
             progress=seeking,
+            let=interruption,
         )
+    ended_by = flown.ended_by or interruption.ended_by
     findings = replace(findings, is_stored=not no_store)
     if not no_store:
         _keep(findings, store_path)
     code = _report(campaign, findings, style, output, coverage=coverage)
-    return code if flown.ended_by is None else _SIGNALLED + flown.ended_by
+    return code if ended_by is None else _SIGNALLED + ended_by
 
 
 def _check_text(file: Path, dialect: Dialect | None, style: str, name: str, is_trusted: bool) -> int:
@@ -177,9 +181,10 @@ def _promoted(campaign: Campaign, file: Path) -> tuple[RegressionCase, ...]:
 
 def _keep(findings: Findings, store_path: Path) -> None:
     """Have the store remember conditions and causes, so that `explain` need not fly for them; it can if that fails."""
-    known = {fault.bucket.example: write_condition(fault.condition) for fault in findings.faults}
-    known |= {part: write_condition(one.bucket.example) for one in findings.faults for part in one.bucket.parts[1:]}
-    causes = {fault.bucket.example: write_record(fault.causes) for fault in findings.faults if fault.causes.is_sought}
+    faults = [fault for fault in findings.faults if not fault.is_cut]
+    known = {fault.bucket.example: write_condition(fault.condition) for fault in faults}
+    known |= {part: write_condition(one.bucket.example) for one in faults for part in one.bucket.parts[1:]}
+    causes = {fault.bucket.example: write_record(fault.causes) for fault in faults if fault.causes.is_sought}
     with suppress(StoreError), open_store(store_path) as store:
         store.keep_conditions(findings.run_id, known)
         store.keep_causes(findings.run_id, causes)
@@ -253,6 +258,9 @@ def cores() -> int:
 def _report(campaign: Campaign, findings: Findings, style: str, output: Path, *, coverage: bool) -> int:
     """Write every form of the report, print the one that was asked for, and say how it ended."""
     excerpts = Excerpts(Path(campaign.models.agent.root))
+    if style == "text":  # first of all: what follows may take a while
+        click.echo(text_report(findings, excerpts), nl=False)
+        sys.stdout.flush()
     covered = coverage_of(campaign.models, findings.results) if coverage else None
     pairs = campaign.pairs(findings)
     page = html_report(findings, excerpts, campaign.stories(findings), pairs, campaign.drawn(findings, pairs))
@@ -273,7 +281,6 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path, *,
     if style == "github":
         click.echo(github_report(findings, excerpts), nl=False)
     elif style == "text":
-        click.echo(text_report(findings, excerpts), nl=False)
         if covered is not None:
             click.echo("\n" + coverage_text(covered), nl=False)
         click.echo(f"\nreport: {output / 'report.html'} (beside it report.json, report.md, junit.xml, report.sarif)")

@@ -16,6 +16,7 @@ import click
 
 import runtime.build_form
 from nddl_lang.text.nearest import nearest
+from runtime.user.black_box import HERE
 from runtime.user.fault import UserCodeError
 
 # A subcommand is one file, imported only when it is used; a new one needs a line here and nothing else.
@@ -57,6 +58,8 @@ _PLANNING = (
     *("load", "compile", "plan", "run", "replay", "gold", "check", "process", "study", "mutate"),
     *("explain", "shrink", "promote", "validate", "certify", "controllability"),
 )
+# What may run Python of a project, and therefore does so in a process that is watched.
+_SUPERVISED = frozenset((*_PLANNING, "lsp"))
 _UNUSABLE, _BUG, _INTERRUPTED = 2, 3, 130
 _MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)  # no room, or a broken disk
 _FORBIDDEN = (errno.EACCES, errno.EPERM, errno.ELOOP, errno.ENAMETOOLONG)
@@ -138,13 +141,14 @@ def run(arguments: Sequence[str] | None = None) -> int:
             mistake.show()
         return _UNUSABLE
     except UserCodeError as mistake:
-        _complain(f"nddlc: {mistake}\n  help: {mistake.advice}")
+        _blame(mistake)
         return _UNUSABLE
     except MemoryError:
         _complain("nddlc: there is not enough memory for this")
         return _UNUSABLE
     except (click.Abort, KeyboardInterrupt):
-        _complain("nddlc: interrupted")
+        with suppress(KeyboardInterrupt):  # a second one
+            _complain("nddlc: interrupted")
         return _INTERRUPTED
     except OSError as problem:
         if problem.errno in _MACHINE:
@@ -165,6 +169,10 @@ def _report(bug: Exception, arguments: Sequence[str] | None) -> int:
     return _BUG
 
 
+def _blame(mistake: UserCodeError) -> None:
+    _complain(f"nddlc: {mistake}\n  help: {mistake.advice}")
+
+
 def _complain(text: str) -> None:
     """Write to standard error; where that cannot be written to, the exit code must do."""
     with suppress(OSError):
@@ -180,7 +188,13 @@ def _open_streams() -> None:
 
 def main() -> None:
     """The console script."""
-    sys.exit(run())
+    words = sys.argv[1:]
+    if "--trust" in words or not _SUPERVISED.isdisjoint(words):
+        _open_streams()
+        named("nddlc.supervision:supervise")(_blame, lambda bug: _report(bug, None))
+    code = run()
+    HERE.leave()
+    sys.exit(code)
 
 
 if __name__ == "__main__":

@@ -18,12 +18,14 @@ from types import FrameType
 from typing import Protocol
 
 import runtime.build_form
+from checker.batch.echo import Echo
 from checker.batch.garbage import seldom_collected
 from checker.batch.process import ENDING, SPARE, Worker, WorkerError, unloaded
 from checker.batch.result import MissionResult
 from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result
 from checker.oracle import USER_CODE
 from runtime.executive.configuration import AgentConfiguration
+from runtime.user.fault import UserCodeError
 
 _LARGEST_CHUNK = 16
 _FAILED_STARTS = 3  # workers in a row that may die before they are ready
@@ -99,6 +101,8 @@ class _Pool:
             for worker in list(self.workers):
                 if worker.connection in ready:
                     self._listen(worker)
+                elif (reason := worker.hung()) is not None:
+                    self._lose(worker, reason, USER_CODE)
                 elif time.monotonic() > worker.deadline and (worker.owed or not worker.is_ready):
                     self._lose(worker, f"took longer than {self.batch.time_limit:g} s")
         return None
@@ -149,8 +153,7 @@ class _Pool:
             if not worker.owed:
                 self._feed(worker)
         except (EOFError, OSError):
-            worker.process.join(1.0)
-            self._lose(worker, f"the process died ({_fate(worker.process.exitcode)})")
+            self._lose(worker, *worker.fate())
 
     def _feed(self, worker: Worker) -> None:
         """Give a worker a chunk: the fewer missions are left, the smaller, so that all workers end together."""
@@ -166,6 +169,8 @@ class _Pool:
             self.missing -= 1
             self.supervisor.take(error_result(worker.owed.popleft(), reason, code=code))
         elif not worker.is_ready:
+            if code == USER_CODE:
+                raise UserCodeError(reason)
             self.failed_starts += 1
             if self.failed_starts >= _FAILED_STARTS:
                 raise WorkerError(f"workers end before they are ready: {reason}")
@@ -175,15 +180,6 @@ class _Pool:
             self.workers.append(self._begun())
 
 
-def _fate(exit_code: int | None) -> str:
-    if exit_code is None or exit_code >= 0:
-        return f"exit code {exit_code}"
-    try:
-        return f"signal {signal.Signals(-exit_code).name}"
-    except ValueError:  # real-time signals but the first and the last have no names
-        return f"signal {-exit_code}"
-
-
 @contextlib.contextmanager
 def _signal_pipe() -> Iterator[int]:
     """A file descriptor from which a signal that ends the batch can be read; the second one does what it always did."""
@@ -191,9 +187,18 @@ def _signal_pipe() -> Iterator[int]:
     is_main = threading.current_thread() is threading.main_thread()
     before = {number: signal.getsignal(number) for number in ENDING}
 
+    echo = Echo()
+    noted: set[int] = set()
+
     def note(number: int, _frame: FrameType | None) -> None:
-        os.write(writing, bytes((number,)))
-        signal.signal(number, before[number])
+        if echo.is_of(number):
+            return
+        if number in noted:
+            signal.signal(number, before[number])
+            signal.raise_signal(number)
+        else:
+            noted.add(number)
+            os.write(writing, bytes((number,)))
 
     if is_main:
         for number in ENDING:

@@ -12,12 +12,14 @@ from multiprocessing.process import BaseProcess
 
 import runtime.build_form
 from checker.batch.result import MissionResult
-from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result, work
+from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result, reason_of, work
 from checker.oracle import USER_CODE
 from runtime.executive.configuration import AgentConfiguration
+from runtime.user.black_box import new_box, signal_name
 from runtime.user.fault import UserCodeError
 
 _SAFE_PATH = "PYTHONSAFEPATH"
+_LOOK = 0.25  # seconds from one look at a process to the next
 _START_LIMIT = 120.0  # seconds for a worker to load the models
 ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
@@ -95,20 +97,22 @@ class Flyer:
             self._worker = SPARE.take(self._load, self._agent)
         if self._worker is None:
             self._worker = Worker(self._load, self._agent)
-            if not self._worker.connection.poll(_START_LIMIT):
-                return self._lost(task, "the process did not start")
+            reason = self._worker.await_words(_START_LIMIT)
+            if reason is not None:
+                return self._lost(task, reason or "the process did not start", USER_CODE if reason else "")
             message = self._heard()
             if isinstance(message, LoadFailure):
                 raise unloaded(message)
             if message != READY:
-                return self._lost(task, "the process did not start")
+                return self._lost(task, *self._worker.fate())
         self._worker.give([task], limit)
-        if not self._worker.connection.poll(limit):
-            return self._lost(task, f"took longer than {limit:g} s")
+        reason = self._worker.await_words(limit)
+        if reason is not None:
+            return self._lost(task, reason or f"took longer than {limit:g} s", USER_CODE if reason else "")
         result = self._heard()
         if isinstance(result, LastWords):
             return self._lost(task, result.reason, USER_CODE)
-        return result if isinstance(result, MissionResult) else self._lost(task, "the process died")
+        return result if isinstance(result, MissionResult) else self._lost(task, *self._worker.fate())
 
     def _heard(self) -> object:
         assert self._worker is not None
@@ -130,7 +134,10 @@ class Worker:
     def __init__(self, load: Load, agent: AgentConfiguration) -> None:
         context = multiprocessing.get_context("spawn")
         self.connection, other = context.Pipe()
-        self.process: BaseProcess = context.Process(target=work, args=(other, load, agent), daemon=True)
+        self._box = new_box()
+        self._looked = time.monotonic()
+        box = "" if self._box is None else self._box.path
+        self.process: BaseProcess = context.Process(target=work, args=(other, load, agent, box), daemon=True)
         with _signals_held_back(), _safe_path(), _children_allowed():
             self.process.start()
         other.close()
@@ -143,11 +150,38 @@ class Worker:
         self.deadline = time.monotonic() + time_limit
         self.connection.send(chunk)
 
+    def hung(self) -> str | None:
+        """Look whether a modeler's code holds the process for longer than it may: what to say of it then."""
+        now = time.monotonic()
+        step, self._looked = min(now - self._looked, _LOOK), now  # a process that was held does not notice
+        if self._box is None or self.process.pid is None or not self._box.is_stuck(step):
+            return None
+        return reason_of(self._box.hung(self.process.pid))
+
+    def await_words(self, seconds: float) -> str | None:
+        """Wait until it says something; why it does not: a modeler's code, or "" where nobody knows more."""
+        end = time.monotonic() + seconds
+        while not self.connection.poll(min(_LOOK, max(0.0, end - time.monotonic()))):
+            reason = self.hung()
+            if reason is not None or time.monotonic() >= end:
+                return reason or ""
+        return None
+
+    def fate(self) -> tuple[str, str]:
+        """How it died, and the code of the judgement."""
+        self.process.join(1.0)
+        code = self.process.exitcode
+        how = f"signal {signal_name(-code)}" if code is not None and code < 0 else f"exit code {code}"
+        blamed = None if self._box is None else self._box.died(how)
+        return (reason_of(blamed), USER_CODE) if blamed is not None else (f"the process died ({how})", "")
+
     def kill(self) -> None:
         """End the process, whatever it is doing."""
         self.process.kill()
         self.process.join()
         self.connection.close()
+        if self._box is not None:
+            self._box.close()
 
 
 class _Spare:

@@ -15,6 +15,7 @@ from checker.oracle import USER_CODE, Judgement, Verdict, judge
 from checker.sampling.sampler import RANDOM_POINT, SamplePoint
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import Outcome
+from runtime.user.black_box import HERE
 from runtime.user.fault import HELP, UserCodeError
 from runtime.user.limit import WATCH
 
@@ -55,11 +56,13 @@ class LastWords:
     reason: str
 
 
-def work(connection: Connection, load: Load, agent: AgentConfiguration) -> None:
-    """Serve missions until None comes or the other end is gone."""
+def work(connection: Connection, load: Load, agent: AgentConfiguration, box: str) -> None:
+    """Serve missions until None comes or the other end is gone; calls are noted in the black box of that name."""
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):  # these go to the whole group; the parent decides what they mean
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_IGN)
+    if box:
+        HERE.open(box)
     WATCH.last_words = partial(_send_last_words, connection)
     try:
         try:
@@ -81,10 +84,11 @@ def work(connection: Connection, load: Load, agent: AgentConfiguration) -> None:
 
 
 def _send_last_words(connection: Connection, problem: UserCodeError) -> None:
-    connection.send(LastWords(_reason(problem)))
+    connection.send(LastWords(reason_of(problem)))
 
 
-def _reason(problem: UserCodeError) -> str:
+def reason_of(problem: UserCodeError) -> str:
+    """What a mission says that code of the project ended."""
     return str(problem) if problem.advice == HELP else f"{problem}; {problem.advice}"
 
 
@@ -93,7 +97,7 @@ def fly_one(fly: Fly, task: Task, *, keep_trace: bool = False) -> MissionResult:
     try:
         outcome = fly(task.seed)
     except UserCodeError as problem:
-        return error_result(task, _reason(problem), problem.detail, USER_CODE)
+        return error_result(task, reason_of(problem), problem.detail, USER_CODE)
     except Exception as problem:
         return error_result(task, f"{type(problem).__name__}: {problem}", traceback.format_exc())
     judgement, losses = judge(outcome), losses_of(outcome)

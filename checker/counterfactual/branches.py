@@ -3,7 +3,8 @@
 import re
 from collections.abc import Iterator
 
-from checker.counterfactual.dependence import Dependence, LooseEnd, flat
+from checker.counterfactual.dependence import Dependence, LooseEnd
+from checker.counterfactual.instructions import flat
 from compiler.program import Child, Guard, Instruction, RuleCode
 from nddl_lang.text.source import Span
 

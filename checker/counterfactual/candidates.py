@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
-from checker.causes import failed_by, refusals
+from checker.causes import Failed, failed_by, refusals
 from checker.counterfactual.deadlocks import lines_at_odds
 from checker.counterfactual.dependence import Dependence
 from checker.culprit import culprit_of
@@ -21,9 +21,10 @@ from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Span
 from runtime.executive.configuration import PropertyConfiguration
 from runtime.executive.events import heads_of, single_events
-from runtime.executive.outcome import Conflict, Deadlock, ElementKind, Event, EventKind, Outcome, SourcePlace
+from runtime.executive.outcome import Abort, Conflict, Deadlock, ElementKind, Event, EventKind, Outcome, SourcePlace
 
 _CULPRIT, _CONFLICT, _LOG, _OBSERVED, _COVERED, _EVENT, _AWAITED, _NAMED = 0.0, 0.25, 0.5, 0.5, 0.75, 1.0, 1.0, 1.5
+_LEVEL = 0.5  # of what changes the level of a resource that rules something out
 _OUTSIDE = 3.0  # added where other lines contradict each other, whatever happens
 _TROUBLES = (EventKind.RELAX, EventKind.REJECT, EventKind.REFUSE, EventKind.KILL)
 _UNSEEN = 4.0  # added for lines of a rule that nothing fired
@@ -82,6 +83,10 @@ def candidates_of(
         for number in graph.setting(token, variable):
             if number not in roots or roots[number][0] > _OBSERVED:
                 roots[number] = (_OBSERVED, Suspicion.CONFLICT)
+    for predicate in sorted(_tokens_in(outcome, failed, first)):
+        for number in graph.of_resource(predicate):
+            if number not in roots or roots[number][0] > _LEVEL:
+                roots[number] = (_LEVEL, Suspicion.CONFLICT)
     held = {predicate for *_, predicate in heads_of(outcome.events)}
     predicates = _ended_by(outcome, held) | _violated(outcome, properties)
     if not roots and not predicates:
@@ -125,6 +130,15 @@ def _observed(conflict: Conflict | None) -> set[tuple[str, str]]:
         for variable in element.variables
         if variable.token is not None
     }
+
+
+def _tokens_in(outcome: Outcome, failed: Failed, first: Event | None) -> set[str]:
+    """The predicates of the tokens that conflicts speak of: of the end, of what was tried, of the first trouble."""
+    ends: tuple[Failed | Event | Abort | None, ...] = (failed, first, outcome.abort)
+    conflicts = [one.conflict for one in ends if one is not None and one.conflict is not None]
+    conflicts += [each for one in ends if one is not None and one.deadlock for each in one.deadlock.conflicts()]
+    variables = (variable for conflict in conflicts for variable in conflict.variables)
+    return {variable.token.predicate for variable in variables if variable.token is not None}
 
 
 def _named(

@@ -22,15 +22,15 @@ def lines_at_odds(failed: Failed, text: ModelText) -> frozenset[SourcePlace]:
     found: set[SourcePlace] = set()
     for conflict in conflicts:
         needed = _needed(conflict, text)
-        if any(conflict.elements[number].kind in _WORLD for number in needed):
+        if needed is None or any(conflict.elements[number].kind in _WORLD for number in needed):
             return frozenset()
         found |= {place for number in needed if (place := conflict.elements[number].place) is not None}
     return frozenset(found)
 
 
-def _needed(conflict: Conflict, text: ModelText) -> tuple[int, ...]:
-    """The elements that z3 needs; all where it does not know."""
+def _needed(conflict: Conflict, text: ModelText) -> tuple[int, ...] | None:
+    """The elements that z3 needs, all where it does not know; None where what it was not told may have a part."""
     answer = confirm(conflict, text, _EFFORT)
-    if answer.finding is Finding.CONFIRMED and not answer.untranslated:
-        return answer.core
-    return tuple(range(len(conflict.elements)))
+    if answer.untranslated:
+        return None
+    return answer.core if answer.finding is Finding.CONFIRMED else tuple(range(len(conflict.elements)))

@@ -6,11 +6,13 @@ argument leads to the line that sets it, and a request to its sender.
 """
 
 import heapq
+import re
 from collections import defaultdict
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from checker.counterfactual.instructions import flat, is_shared, pairs_in
 from checker.mutation.edits import EditSite
 from compiler.program import (
     DURATION,
@@ -47,10 +49,12 @@ from nddl_lang.text.source import Span
 Key = tuple[object, ...]  # of a variable
 _TIMES = "times"
 _DURATION = "duration"
-_SHARED = "AgentTimeline"
 # Relations that leave the end of the origin free, where nothing says when the target begins.
 _FREE = ("any", "contains", "starts", "met_by", "after", "meets", "before")
 _RESOURCES = ("Reservoir", "Reusable", "CBReusable", "Unary")
+_MOST_BESIDE = 12  # lines that speak of a variable which still says that they hang together
+_PASSED = 0.4  # length of the way through a line that only passes a value on
+_PASSING = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==\s*([A-Za-z_][\w.]*)\s*;")
 _CROWD = 0.05  # what each further line that bears on a variable adds to the way through it
 
 
@@ -82,6 +86,7 @@ class Dependence:
         self._keys: dict[int, set[Key]] = defaultdict(set)
         self._users: dict[Key, set[int]] = defaultdict(set)
         self._paths: dict[str, str] = {}
+        self._named = {site.named for site in sites if site.named}
         self.programs = programs
         for number, program in enumerate(programs):
             for span, keys in _Links(number, program).all():
@@ -111,6 +116,17 @@ class Dependence:
             if key[0] == "token" and str(key[1]).rpartition(".")[2] == predicate:
                 yield from self._users[key]
 
+    def of_resource(self, predicate: str) -> Iterator[int]:
+        """The sites that bear on an event of a resource, and where that is made; none for other predicates."""
+        native = any(
+            one.name == predicate.rpartition(".")[0] and one.native in _RESOURCES
+            for program in self.programs
+            for one in program.classes
+        )
+        for key in self._users if native else ():
+            if key[:2] == ("token", predicate):
+                yield from self._users[key]
+
     def setting(self, predicate: str, variable: str) -> Iterator[int]:
         """The sites in the rule of a predicate that bear on a parameter of its token, or on how long that lasts."""
         key = ("token", predicate, _TIMES if variable in (_DURATION, "end") else variable)
@@ -129,9 +145,9 @@ class Dependence:
         related: dict[str, set[str]] = defaultdict(set)
         shared: set[str] = set()
         for program in self.programs:
-            shared |= {each.name for each in program.predicates if _is_shared(each.class_name, program)}
+            shared |= {each.name for each in program.predicates if is_shared(each.class_name, program)}
             for rule in program.rules:
-                for one, other in _related(rule):
+                for one, other in pairs_in(rule):
                     related[one].add(other)
                     related[other].add(one)
         found: set[str] = set()
@@ -141,6 +157,13 @@ class Dependence:
                 found.add(name)
                 waiting |= related[name]
         return {name.rpartition(".")[2] for name in found}
+
+    def beside(self, site: EditSite) -> set[EditSite]:
+        """The other lines that speak of a variable of a line, where few do."""
+        numbers = [one for one in self.at(site.file, site.first) if self.sites[one] is site]
+        groups = [self._users[key] for one in numbers for key in self._keys[one]]
+        found = {self.sites[one] for group in groups if len(group) <= _MOST_BESIDE for one in group}
+        return found - {site}
 
     def distances(self, roots: Mapping[int, float]) -> dict[int, float]:
         """How far each site is from the nearest root, whose own distance is given: shortest ways through variables."""
@@ -155,11 +178,16 @@ class Dependence:
             found[site] = far
             for key in self._keys[site] - passed:
                 passed.add(key)
-                step = 1.0 + _CROWD * len(self._users[key])
+                step = (_PASSED if self._is_passing(site) else 1.0) + _CROWD * len(self._users[key])
                 for other in self._users[key]:
                     if other not in found:
                         heapq.heappush(queue, (far + step, other))
         return found
+
+    def _is_passing(self, site: int) -> bool:
+        """Whether a line says no more than that two variables are equal."""
+        sides = _PASSING.fullmatch(self.sites[site].text)
+        return sides is not None and all(side.partition(".")[0] not in self._named for side in sides.groups())
 
     def loose_ends(self) -> list[LooseEnd]:
         """The loose ends of all rules: locals, parameters of the own token and of children, and times.
@@ -346,39 +374,5 @@ class _Links:
             case UnionOf(operands=operands):
                 for one in operands:
                     yield from self._operand(one, scope, tokens)
-            case _:
-                pass
-
-
-def _is_shared(owner: str | None, program: Program) -> bool:
-    """Whether a class is that of a timeline that reactors share, so that what holds there is observed."""
-    bases = {each.name: each.base for each in program.classes}
-    while owner is not None and owner != _SHARED:
-        owner = bases.get(owner)
-    return owner is not None
-
-
-def _related(rule: RuleCode) -> Iterator[tuple[str, str]]:
-    """The predicates of the tokens that a rule relates in time, in pairs."""
-    steps = list(flat(rule.body))
-    tokens = {0: rule.predicate} | {step.slot: step.predicate for step in steps if isinstance(step, Child)}
-    for step in steps:
-        match step:
-            case Child(slot=target, origin=origin) | Relate(target=target, origin=origin):
-                if origin in tokens and target in tokens:
-                    yield tokens[origin], tokens[target]
-            case _:
-                pass
-
-
-def flat(body: tuple[Instruction, ...]) -> Iterator[Instruction]:
-    """All instructions of a body, those of its branches included."""
-    for step in body:
-        yield step
-        match step:
-            case Guard(then=then, otherwise=otherwise):
-                yield from flat((*then, *otherwise))
-            case ObjectLoop(body=inner):
-                yield from flat(inner)
             case _:
                 pass

@@ -1,16 +1,19 @@
 """A failed mission in, candidates of its mission file out, the likeliest first: tried where no model line mends.
 
-What a goal asks that the conflict speaks of is tried in any case.
+What a goal asks that the conflict speaks of is tried in any case. Of what else goals ask for, the earliest goal that
+was not achieved is tried; of a property that is violated, its ticks.
 """
 
 from checker.causes import failed_by
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.mission import Mission
 from checker.mutation.mission_edits import mission_sites
+from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.events import single_events
+from runtime.executive.messages import Arguments
 from runtime.executive.outcome import ElementKind, EventKind, Outcome
 
-_SPOKEN, _DEAF, _LOST, _ABORTED, _OTHERS = 0.0, 0.0, 1.0, 2.0, 3.0
+_SPOKEN, _DEAF, _BROKEN, _LOST, _ABORTED, _ASKED, _OTHERS = 0.0, 0.0, 0.5, 1.0, 2.0, 2.5, 3.0
 _GIVEN_UP = (EventKind.REJECT, EventKind.REFUSE)
 
 
@@ -23,13 +26,23 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
     conflict = failed_by(outcome).conflict
     elements = conflict.elements if conflict is not None else ()
     asked = [one.place for one in elements if one.kind is ElementKind.REQUEST and one.place is not None]
+    broken = next((one.name for one in outcome.properties if not one.is_kept), "") if outcome.abort is None else ""
+    due = _due(mission, outcome)
     found = []
     for (table, number), sites in mission_sites(mission).items():
         if table == "goal":
             goal = mission.agent.goals[number]
-            if (goal.timeline, goal.predicate) not in given_up:
+            if (goal.timeline, goal.predicate) not in given_up and not broken:
                 continue
-            far = _LOST
+            far = _LOST if (goal.timeline, goal.predicate) in given_up else _OTHERS
+        elif table == "asked":
+            if number != due:
+                continue
+            far = _ASKED
+        elif table == "property":
+            if mission.agent.properties[number].name != broken:
+                continue
+            far = _BROKEN
         else:
             reactor = mission.agent.reactors[number]
             far = _ABORTED if reactor.name == ended else _OTHERS
@@ -40,3 +53,21 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
             source = Suspicion.CONFLICT if is_spoken else Suspicion.TRACE
             found.append(Candidate(site, _SPOKEN if is_spoken else far, source))
     return sorted(found, key=lambda one: one.far)
+
+
+def _due(mission: Mission, outcome: Outcome) -> int:
+    """The number of the earliest goal that was not achieved; -1 where there is none."""
+    left = {(one.timeline, one.predicate, one.arguments) for one in outcome.open_goals}
+    open_ones = [
+        (goal.start[0] if goal.start is not None else 0, number)
+        for number, goal in enumerate(mission.agent.goals)
+        if any(_is_asked(goal, *one) for one in left)
+    ]
+    return min(open_ones)[1] if open_ones else -1
+
+
+def _is_asked(goal: GoalConfiguration, timeline: str, predicate: str, arguments: Arguments) -> bool:
+    """Whether a goal may be what was asked for."""
+    asked = dict(arguments)
+    same = all(asked.get(name, value) == value for name, value in goal.parameters)
+    return (goal.timeline, goal.predicate) == (timeline, predicate) and same

@@ -79,6 +79,7 @@ class Causes:
 
 
 NO_CAUSES = Causes()
+CANCELLED = Causes(ended=TrialsEnd.CANCELLED)  # a signal came before anything was tried
 
 
 def rank(trials: Trials, root: Path) -> Causes:

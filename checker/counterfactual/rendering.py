@@ -41,6 +41,8 @@ def claim_text(cause: RankedLine) -> str:
 
 def cause_text(causes: Causes) -> str:
     """The likeliest cause in one line, with what was tried for it."""
+    if causes.first is None and causes.ended is TrialsEnd.CANCELLED:
+        return f"not known ({effort_text(causes)})"
     if causes.first is None:
         return f"no change of one line makes it pass ({effort_text(causes)})"
     return f"{claim_text(causes.first)} ({effort_text(causes)})"

@@ -19,7 +19,7 @@ from checker.counterfactual.trials import HEAVY, Bounds, Missions, Trials, damag
 from checker.coverage import Universe
 from checker.losses import Limit
 from checker.mission import Mission
-from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
+from checker.mutation.edits import OUTSIDE, EditSite, SmallEdit, sites_of
 from checker.mutation.mission_edits import agent_with
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
 from checker.oracle import Verdict, judge_losses
@@ -88,13 +88,13 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     text = text_of(world.agent, models)
     candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties, exercised, text)
     last = mission_lines(world.mission, outcome) if world.mission is not None else ()
-    trials = try_out(candidates, missions, usage, partial(_fly, world), bounds, last)
+    trials = try_out(candidates, missions, usage, partial(_fly, world), bounds, last, graph.beside)
     return replace(trials, loose=loose_ends(graph, candidates, usage))
 
 
 def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult, most_seconds: float) -> MissionResult:
     agent, overlay = world.agent, world.overlay
-    if edit.kind is not EditKind.MISSION:
+    if edit.kind not in OUTSIDE:
         overlay = with_edit(overlay, edit)
     elif world.mission is not None:
         agent = agent_with(world.mission, agent, edit)

@@ -65,6 +65,7 @@ _COMPARISONS = {
 # The sign of what is added: between two times most write how much later one is.
 _SIGNED = {"time sum": {"+": 4.0, "-": 1.0}, "sum": {"+": 2.0, "-": 1.0}, "number": {}}
 _MENTION, _ALIKE, _DOUBLED = 2.0, 1.5, 0.7  # odds that what lacks a mention is meant, or the same name on both sides
+_WISHED = 5.5  # of another wish: it is the user's
 _VALUE = 1.7  # of another value: few lines have one, so their number says little
 _UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
 _SUM = 1.5  # how much the odds count of a sign that stands between the same words elsewhere
@@ -188,6 +189,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return 0.0  # a reactor that is asked for nothing
         case EditKind.PREDICATE | EditKind.MISSION:
             return 3.0
+        case EditKind.GOAL:
+            return _WISHED
         case EditKind.VALUE:
             return _VALUE
         case EditKind.NAME | EditKind.POINT | EditKind.TOKEN:
@@ -211,6 +214,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     match edit.kind:
         case EditKind.MISSION:
             return -1.0 if edit.old == "0" else None  # tried last
+        case EditKind.GOAL:
+            return None
         case EditKind.LIMIT if usage.is_swapped(edit):
             return -1.0
         case EditKind.LIMIT:

@@ -4,27 +4,30 @@ A change counts where the mission then passes, with the same draws, and the judg
 to the least likely and end after so many flights or seconds: what could not be tried is told, not guessed.
 """
 
-import heapq
 import time
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from itertools import count
 
+from checker.batch.interruption import InterruptedSearch
 from checker.batch.result import MissionResult
+from checker.causes import failed_by
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.smallness import Usage, alternatives, cost_of, delay_of, follow_ups, is_loosening
+from checker.counterfactual.turns import Turns
 from checker.coverage import left_out
 from checker.losses import GoalFate
 from checker.mutation.edits import EditKind, EditSite, SmallEdit
 from checker.oracle import Verdict
+from runtime.executive.events import single_events
 
 MOST_FLIGHTS = 40
 MOST_SECONDS = 60.0
 _NEARNESS = 0.3  # of the distance, beside how late an edit is tried at its line
 _TURN, _PLACE = 0.3, 0.1  # how much later each further edit of one line is tried, at one place and at another
-_MOST_OUTSIDE = 5  # changes of the mission file
+_MOST_OUTSIDE = 8  # changes of the mission file
+_TOLD = 3  # small changes of models beside which a goal is not doubted
 _CONFIRMED = 3  # causes that are tried on other missions too
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
 HEAVY = 10.0  # damage of a mission that passes without a goal
@@ -138,32 +141,35 @@ def try_out(
     fly: Try,
     bounds: Bounds,
     last: Sequence[Candidate] = (),
+    beside: Callable[[EditSite], Collection[EditSite]] = lambda _: (),
 ) -> Trials:
     """Try changes of the candidates on the first of the failed missions, and the best ones on the other missions.
 
-    What is to be tried `last` is where no small change of others has helped, or where the conflict speaks of it.
+    What is to be tried `last` is where no small change of others has helped, or where the conflict speaks of it. Lines
+    `beside` one that has helped are tried sooner.
     """
     failed = missions.failed
     trials = _Trials(missions, fly, bounds)
-    queue: list[tuple[float, int, Candidate, SmallEdit]] = []
-    order = count()
+    turns = Turns(beside)
     for candidate in (*last, *candidates):
-        turns: Counter[int] = Counter()
+        earlier: Counter[int] = Counter()
         far = max(candidate.far - _CONSTANT * candidate.site.is_number, 0.0)
         for delay, edit in _first_edits(candidate.site, usage):
             at = _NEARNESS * far + delay
             if edit.kind is not EditKind.VALUE:  # of which there are few
-                at += _TURN * turns[edit.begin] + _PLACE * len(turns)
-                turns[edit.begin] += 1
-            heapq.heappush(queue, (at, next(order), candidate, edit))
+                at += _TURN * earlier[edit.begin] + _PLACE * len(earlier)
+                earlier[edit.begin] += 1
+            turns.add(at, candidate, edit)
     reserve = min(_CONFIRMED * (len(failed) - 1 + len(missions.passed)), bounds.flights // 4)
+    course = _course(failed[0])
+    is_told = failed_by(failed[0].outcome).deadlock is None  # what rules out a plan may do so before a line counts
     best: dict[EditSite, LineTrial] = {}
     tried: set[tuple[EditSite, SmallEdit]] = set()
     outside = [(candidate, edit) for candidate in last for edit in candidate.site.edits]
     outside = [one for one in outside if delay_of(one[1], one[0].site, usage) is None][:_MOST_OUTSIDE]
     spoken = sum(candidate.source is Suspicion.CONFLICT for candidate, _ in outside)
-    while queue and trials.may_go_on(reserve + (spoken if _has_small(best) else len(outside))):
-        at, _, candidate, edit = heapq.heappop(queue)
+    while turns and trials.may_go_on(reserve + (spoken if _small(best) else len(outside))):
+        at, candidate, edit = turns.pop()
         site = candidate.site
         cost = cost_of(edit, site, usage)
         known = best.get(site)
@@ -172,37 +178,45 @@ def try_out(
         tried.add((site, edit))
         result = trials.fly(edit, failed[0])
         if result.verdict is not Verdict.PASS:
+            if is_told and _course(result) == course:
+                turns.doubt(site, edit.begin)
             continue
         damage = damage_of(result) + _strayed(result, failed[0])
+        if damage < HEAVY:
+            turns.favour(site)
         trial = LineTrial(candidate, edit, damage, cost, is_evasive=missions.is_evasive(result))
         if known is None or trial.toll < known.toll:
             best[site] = trial
         for other in follow_ups(edit, site, usage) if trial.damage < HEAVY else ():
-            heapq.heappush(queue, (at * _FOLLOWED, next(order), candidate, other))
+            turns.add(at * _FOLLOWED, candidate, other)
     trials.resume()
-    has_small = _has_small(best)
+    small = _small(best)
     for candidate, edit in outside:
-        if (candidate.source is Suspicion.CONFLICT or not has_small) and trials.may_go_on(reserve):
+        is_wanted = candidate.source is Suspicion.CONFLICT or small < (_TOLD if edit.kind is EditKind.GOAL else 1)
+        if is_wanted and trials.may_go_on(reserve):
             tried.add((candidate.site, edit))
             result = trials.fly(edit, failed[0])
             if result.verdict is Verdict.PASS:
                 damage, cost = damage_of(result) + _strayed(result, failed[0]), cost_of(edit, candidate.site, usage)
-                best[candidate.site] = LineTrial(candidate, edit, damage, cost, is_evasive=missions.is_evasive(result))
+                trial = LineTrial(candidate, edit, damage, cost, is_evasive=missions.is_evasive(result))
+                known = best.get(candidate.site)
+                if known is None or trial.toll < known.toll:
+                    best[candidate.site] = trial
     trials.resume()
     ranked = sorted(best.values(), key=lambda one: one.weight)
     confirmed: list[LineTrial] = []
     while ranked and sum(not one.spoilt for one in confirmed) < _CONFIRMED:
         confirmed.append(trials.confirmed(ranked.pop(0), usage))
     ranked = sorted([*confirmed, *ranked], key=lambda one: one.weight)
-    is_all = not queue
+    is_all = not turns
     ended = trials.ended or (TrialsEnd.COMPLETE if is_all else TrialsEnd.FLIGHTS)
     lines = len({site for site, _ in tried})
     return Trials(tuple(ranked), tuple(candidates), lines, trials.flights, ended)
 
 
-def _has_small(best: Mapping[EditSite, LineTrial]) -> bool:
-    """Whether a change that takes no demand away makes the mission pass with all its goals."""
-    return any(one.toll < HEAVY and not is_loosening(one.edit, site) for site, one in best.items())
+def _small(best: Mapping[EditSite, LineTrial]) -> int:
+    """How many lines make the mission pass with all its goals, by a change that takes no demand away."""
+    return sum(one.toll < HEAVY and not is_loosening(one.edit, site) for site, one in best.items())
 
 
 def _first_edits(site: EditSite, usage: Usage) -> list[tuple[float, SmallEdit]]:
@@ -224,6 +238,12 @@ def _strayed(result: MissionResult, failed: MissionResult) -> float:
     if result.outcome is None or failed.outcome is None:
         return 0.0
     return min(_STRAYED * left_out(failed.outcome.behaviour, result.outcome.behaviour), _MOST_STRAYED)
+
+
+def _course(result: MissionResult) -> tuple[object, ...]:
+    """What happened in a mission, without when it was planned and why."""
+    events = single_events(result.outcome.events) if result.outcome is not None else ()
+    return tuple((one.tick, one.kind, one.reactor, one.timeline, one.predicate, one.arguments) for one in events)
 
 
 class _Trials:
@@ -259,7 +279,11 @@ class _Trials:
         most = max(_SHARE * (self.bounds.seconds - (begun - self._begun)), _LEAST_SECONDS)
         if self._slowest is not None:
             most = min(most, max(_SLOW * self._slowest, _LEAST_SECONDS))
-        result = self._fly(edit, mission, most)
+        try:
+            result = self._fly(edit, mission, most)
+        except InterruptedSearch:
+            self.ended = TrialsEnd.CANCELLED
+            return replace(mission, judgement=replace(mission.judgement, verdict=Verdict.ERROR))
         if result.verdict is not Verdict.ERROR:
             self._slowest = max(self._slowest or 0.0, time.monotonic() - begun)
         return result

@@ -158,7 +158,7 @@ def _run_columns(run: RunColumns, numbers: SymbolNumbers, first: int, last: int)
     """The runs from one on to before another."""
     return RunRows(
         run.rule,
-        [numbers.column(each.part(first, last)) for each in run.locals],
+        [numbers.column(each) for each in run.locals.part(first, last)],
         [each[first:last] for each in run.children],
         [_branches(each, numbers, first, last) for each in run.guards],
     )

@@ -10,7 +10,7 @@ import numpy as np
 from checker.judge.alike import SymbolNumbers
 from checker.judge.columns import INT, TEXT, Array, Column, Mask, Texts, column_of, distinct, joined
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START
-from runtime.executive.columns import ORIGINS, StoredColumn, TokenColumns
+from runtime.executive.columns import ORIGINS, StoredValues, TokenColumns, ValueColumn
 from runtime.executive.record import NOBODY, ReactorRecord, TokenRecord
 
 _SPARSE = 4
@@ -22,21 +22,23 @@ class _Stored:
     """Arguments of tokens of one predicate that the record keeps in a store; what has not begun has none."""
 
     def __init__(self, tokens: TokenColumns, numbers: SymbolNumbers, predicate: int, rows: Array) -> None:
-        self.store = tokens.store
+        first = tokens.times.values.take(rows)
+        self.count = len(rows)
         self.numbers = numbers
-        self.kinds = tokens.kinds[predicate]
-        self.first = tokens.times.values.take(rows)
         self.missing: Mask | None = None
-        if len(rows) and self.first.min() < 0:
-            self.missing = self.first < 0
-            self.first = np.maximum(self.first, 0)
+        if len(rows) and first.min() < 0:
+            self.missing = first < 0
+            first = np.maximum(first, 0)
+        self.values = StoredValues(tokens.store, first, tokens.kinds[predicate])
+        self.columns: tuple[ValueColumn, ...] | None = None
 
     def column(self, number: int) -> Column:
         """An argument, by the number of its parameter; bad where there is none."""
-        count = len(self.first)
-        if not 0 <= number < len(self.kinds):
-            return _no_column(count)
-        column = self.numbers.column(StoredColumn(self.kinds[number], self.store, self.first, number).part(0, count))
+        if not 0 <= number < len(self.values.kinds):
+            return _no_column(self.count)
+        if self.columns is None:
+            self.columns = self.values.columns()
+        column = self.numbers.column(self.columns[number])
         if self.missing is not None:
             column.bad = self.missing if column.bad is None else self.missing | column.bad
         return column

@@ -71,10 +71,12 @@ class EditKind(StrEnum):
     TOKEN = "token"  # one token of a rule, for another
     PREDICATE = "predicate"  # of a child
     MISSION = "mission file"
+    GOAL = "goal"  # what a goal asks for
     DROPPED_CONSTRAINT = "dropped constraint"
     DROPPED_BRANCH = "dropped branch"
 
 
+OUTSIDE = (EditKind.MISSION, EditKind.GOAL)  # of any model
 DROPPED = (EditKind.DROPPED_CONSTRAINT, EditKind.DROPPED_BRANCH)
 
 

@@ -1,9 +1,10 @@
-"""A mission file in, its sites out: times of goals, and how far ahead and how fast reactors plan.
+"""A mission file in, its sites out: goals, properties, and how far ahead and how fast reactors plan.
 
-What goals ask for is the user's, and what is drawn is the world's: neither is changed.
+What is drawn is the world's: it is not changed. What else a goal may ask for is what others of its predicate ask for,
+the other truth value, or a number half or a tenth as large.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,6 +16,8 @@ from nddl_lang.text.source import Source
 from runtime.executive.configuration import AgentConfiguration
 
 _TIMES = ("start", "end", "duration")
+_PARAMETERS = "parameters"
+_LONGER = 10  # times as many ticks, of a property
 
 
 def mission_sites(mission: Mission) -> dict[tuple[str, int], list[EditSite]]:
@@ -31,6 +34,10 @@ def mission_sites(mission: Mission) -> dict[tuple[str, int], list[EditSite]]:
         for number in range(len(mission.agent.goals)):
             anytime = f"[0, {final}]"
             found["goal", number] = list(_sites(text, ("goal", number), dict.fromkeys(_TIMES, anytime)))
+            found["asked", number] = list(_asked(mission, number))
+        for number, kept in enumerate(mission.agent.properties):
+            limits = {"by": final if kept.by is not None else None, "ticks": min(_LONGER * kept.ticks, final) or None}
+            found["property", number] = list(_sites(text, ("property", number), limits))
     return found
 
 
@@ -42,20 +49,48 @@ def agent_with(mission: Mission, agent: AgentConfiguration, edit: SmallEdit) -> 
         return agent
     pairs = zip(changed.agent.goals, agent.goals, strict=True)
     goals = tuple(replace(goal, mandatory=known.mandatory) for goal, known in pairs)
-    return replace(agent, reactors=changed.agent.reactors, goals=goals)
+    return replace(agent, reactors=changed.agent.reactors, goals=goals, properties=changed.agent.properties)
 
 
 def _sites(text: MissionText, table: tuple[str, int], values: Mapping[str, object]) -> Iterator[EditSite]:
-    file = str(real_path(Path(text.source.name)))
     for key, value in values.items():
         path = (*table, key)
-        if value is None or path not in text.places:
+        if value is not None and path in text.places:
+            yield _site(text, path, EditKind.MISSION, [str(value)])
+
+
+def _asked(mission: Mission, number: int) -> Iterator[EditSite]:
+    """The parameters that a goal gives one value."""
+    goals, text = mission.agent.goals, mission.text
+    goal = goals[number]
+    for key, value in goal.parameters:
+        path = ("goal", number, _PARAMETERS, key)
+        if path not in text.places or isinstance(value, tuple):
             continue
-        entry, span = text.entry_span(path), text.value_span(path)
-        line, column = text.source.locate(entry.begin)
-        edit = SmallEdit(EditKind.MISSION, file, span.begin, span.finish, span.text, str(value), span.line)
-        last = text.source.locate(span.finish - 1)[0]
-        yield EditSite(file, line, column, last, "", (line, last), entry.text, (edit,), begin=entry.begin)
+        found = [
+            text.value_span(other).text
+            for at, one in enumerate(goals)
+            if (one.timeline, one.predicate) == (goal.timeline, goal.predicate)
+            and (other := ("goal", at, _PARAMETERS, key)) in text.places
+        ]
+        match value:
+            case bool():
+                found.append(str(not value).lower())
+            case int() | float() if value > 1:
+                found += [str(value // part if isinstance(value, int) else value / part) for part in (2, 10)]
+            case _:
+                pass
+        others = [one for one in dict.fromkeys(found) if one not in (text.value_span(path).text, "0")]
+        yield _site(text, path, EditKind.GOAL, others)
+
+
+def _site(text: MissionText, path: tuple[str | int, ...], kind: EditKind, values: Sequence[str]) -> EditSite:
+    file = str(real_path(Path(text.source.name)))
+    entry, span = text.entry_span(path), text.value_span(path)
+    line, column = text.source.locate(entry.begin)
+    edits = tuple(SmallEdit(kind, file, span.begin, span.finish, span.text, one, span.line) for one in values)
+    last = text.source.locate(span.finish - 1)[0]
+    return EditSite(file, line, column, last, "", (line, last), entry.text, edits, begin=entry.begin)
 
 
 def _numbers(text: MissionText, table: str) -> list[int]:

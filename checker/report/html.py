@@ -19,6 +19,7 @@ from checker.report.losses import damage_words, goal_line, goal_text, repair_tex
 from checker.report.paths import plan_figure, section_figure, space_figure
 from checker.report.sentences import (
     case_lines,
+    cut_line,
     decision,
     explained_by,
     missions,
@@ -87,7 +88,7 @@ def _head(findings: Findings) -> list[str]:
     tiles.append((percent(rate.limit), "accepted"))
     if findings.errors:
         tiles.append((str(len(findings.errors)), f"errors {origin_of_errors(findings)}"))
-    further = (stop_line(findings), *case_lines(findings), sensitivity_line(findings))
+    further = (cut_line(findings), stop_line(findings), *case_lines(findings), sensitivity_line(findings))
     return [
         f'<span class="verdict {word}">{word}</span>',
         f"<h1>{escape(findings.agent.name)}</h1>",

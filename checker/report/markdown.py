@@ -8,6 +8,7 @@ from checker.rendering import failure_text
 from checker.report.losses import goal_line, goal_text, repair_text, request_line, unmet_text
 from checker.report.sentences import (
     case_lines,
+    cut_line,
     decision,
     explained_by,
     fault_title,
@@ -29,6 +30,7 @@ def markdown_report(findings: Findings, excerpts: Excerpts) -> str:
     rate = findings.rate
     lines = [f"## {_plain(findings.agent.name)}: {verdict_word(findings)}", "", _plain(headline(findings)) + ".", ""]
     lines += [f"**{_plain(decision(findings))}.** {_plain(rate_line(rate))}.", ""]
+    lines += [f"{_plain(cut_line(findings))}.", ""] if findings.is_cut else []
     lines += ["| missions | failed | failure rate | accepted | errors |", "| ---: | ---: | ---: | ---: | ---: |"]
     lines.append(
         f"| {len(findings.results)} | {rate.failures} | {percent(rate.observed)} | {percent(rate.limit)} "

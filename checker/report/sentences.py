@@ -1,5 +1,6 @@
 """The sentences that every form of the report shares."""
 
+from checker.counterfactual.trials import TrialsEnd
 from checker.findings import Ending, Findings, regressed
 from checker.oracle import CODE_NAMES, USER_CODE, Verdict
 from checker.rate import Method, Rate
@@ -82,6 +83,17 @@ def stop_line(findings: Findings) -> str:
         return ""
     fate = {True: "shown", False: "refuted", None: "still open"}[sampling.shown]
     return f"{sampling.rule}: {fate} after {missions(len(findings.results))}"
+
+
+def cut_line(findings: Findings) -> str:
+    """What a signal kept from being sought; empty where nothing."""
+    if not findings.is_cut:
+        return ""
+    faults = [str(index + 1) for index, fault in enumerate(findings.faults) if fault.is_cut]
+    left = f", the condition of {'fault' if len(faults) == 1 else 'faults'} {', '.join(faults)}" if faults else ""
+    sought = [str(k + 1) for k, one in enumerate(findings.faults) if one.causes.ended is TrialsEnd.CANCELLED]
+    causes = f"causes of {'fault' if len(sought) == 1 else 'faults'} {', '.join(sought)} (in part)" if sought else ""
+    return f"interrupted after all missions; left out: {(causes + left).removeprefix(', ')}"
 
 
 def case_lines(findings: Findings) -> list[str]:

@@ -9,6 +9,7 @@ from checker.rendering import confirmation_text, failure_text
 from checker.report.losses import damage_words, loss_lines
 from checker.report.sentences import (
     case_lines,
+    cut_line,
     decision,
     explained_by,
     fault_title,
@@ -32,7 +33,11 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
     if lost:
         lines.append(f"  cost: {lost}")
     lines.append(f"  {rate_line(findings.rate)}")
-    lines += [f"  {line}" for line in (stop_line(findings), *case_lines(findings), sensitivity_line(findings)) if line]
+    lines += [
+        f"  {line}"
+        for line in (cut_line(findings), stop_line(findings), *case_lines(findings), sensitivity_line(findings))
+        if line
+    ]
     lines += [f"  {line}" for line in loss_lines(findings.tally, excerpts)]
     lines += [f"  {parameter.name}: {describe(parameter)}" for parameter in findings.agent.parameters]
     for index, fault in enumerate(findings.faults[:_MOST_FAULTS]):

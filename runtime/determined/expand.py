@@ -16,7 +16,7 @@ from runtime.executive.columns import (
     Array,
     GuardColumns,
     RunColumns,
-    StoredColumn,
+    ShownValues,
     TokenColumns,
     TokenGroup,
     TokenTimes,
@@ -44,21 +44,23 @@ class _Expansion:
         self.awaited = [line for line in range(machine.lines) if self.walk.awaited[line] >= 0]
         awaited = np.array([self.walk.awaited[line] for line in self.awaited], np.int64)
         keys = np.concatenate([self.keys, self.merged[:, 0], awaited])
-        is_key = np.zeros(self.walk.next_key + 1, bool)
+        is_key = np.zeros(self.walk.next_key, bool)
         is_key[keys] = True
-        self.indices = (np.cumsum(is_key) - 1)[keys]
+        self.indices = keys if is_key.all() else (np.cumsum(is_key) - 1).take(keys)
         self.order = np.empty(len(keys), np.int64)  # the row of each index
         self.order[self.indices] = np.arange(len(keys))
         self.all_keys = np.flatnonzero(is_key)
-        self.slots = self._slots()
+        self._slots: Array | None = None
 
-    def _slots(self) -> Array:
+    @property
+    def slots(self) -> Array:
         """Where each row stands among the tokens of the blocks that were run."""
-        found = np.full(self.walk.count, -1)
-        rows = np.asarray(self.walk.child_rows)
-        slots = np.flatnonzero(rows >= 0)
-        found[rows[slots]] = slots
-        return found
+        if self._slots is None:
+            self._slots = np.full(self.walk.count, -1)
+            rows = np.asarray(self.walk.child_rows)
+            slots = np.flatnonzero(rows >= 0)
+            self._slots[rows[slots]] = slots
+        return self._slots
 
     # ---- times ----
 
@@ -75,27 +77,33 @@ class _Expansion:
         names = [each.name for each in program.model.program.predicates]
         tokens = np.asarray(program.tokens.predicate)
         followers = [self.walk.follower[line] for line in self.awaited]
-        many = len(self.awaited)
+        many = len(into)
+        merged, awaited = self.indices[count : count + many], self.indices[count + many :]
+        # What a merged token has is, as a rule, what the one has that it is merged into.
+        of = np.concatenate([np.arange(count), into, np.zeros(len(awaited), np.int64)]).take(self.order)
 
-        def all_of(own: Array, merged: Array, awaited: Sequence[float]) -> Array:
-            return np.concatenate([own, merged, np.array(awaited, own.dtype)])[self.order]
+        def all_of(own: Array, of_awaited: float | Sequence[float], of_merged: float | Array | None = None) -> Array:
+            found = own.take(of)
+            if of_merged is not None:
+                found[merged] = of_merged
+            found[awaited] = of_awaited
+            return found
 
-        lines = self.rows[:, 1]
-        origins = np.asarray(self.walk.origins)[:count]
         shift = len(names)
+        later, nobodies = self.tick + 1, np.full(count, NOBODY)
         return TokenTimes(
             self.all_keys,
-            all_of(self.rows[:, 2], tokens[self.merged[:, 1]] if len(tokens) else into, followers),
-            all_of(lines + shift, lines[into] + shift, [line + shift for line in self.awaited]),
-            all_of(np.zeros(count, np.int64), np.ones(len(into), np.int64), [2] * many),
-            all_of(self.rows[:, 0], self.rows[into, 0], [self.tick + 1] * many),
-            all_of(least, least[into], [self.tick + 1] * many),
-            all_of(latest, latest[into], [inf] * many),
-            all_of(np.full(count, NOBODY), self.keys[into], [NOBODY] * many),
-            all_of(origins, np.full(len(into), OF_RULE), [OF_RULE] * many),
-            all_of(is_over, is_over[into], [False] * many),
-            all_of(np.where(is_over, ends, self.tick), np.where(is_over, ends, self.tick)[into], [self.tick] * many),
-            all_of(self.rows[:, 4], self.rows[into, 4], [NOBODY] * many),
+            all_of(self.rows[:, 2], followers, tokens.take(self.merged[:, 1]) if many else None),
+            all_of(self.rows[:, 1] + shift, [line + shift for line in self.awaited]),
+            all_of(np.zeros(count, np.int8), 2, 1),
+            all_of(self.rows[:, 0], later),
+            all_of(least, later),
+            all_of(latest, inf),
+            all_of(nobodies, NOBODY, self.keys.take(into) if many else None),
+            all_of(np.asarray(self.walk.origins)[:count], OF_RULE, OF_RULE),
+            all_of(is_over, False),
+            all_of(np.where(is_over, ends, self.tick), self.tick),
+            all_of(self.rows[:, 4], NOBODY),
         )
 
     def _bounds(self, row: int) -> tuple[int, float]:
@@ -267,7 +275,12 @@ class _BlockRuns:
             first, shown = first.take(rows), shown.take(rows)
         return RunColumns(
             body.rule,
-            tuple([StoredColumn(kind, self.values, shown, self.indices[name]) for name, kind in body.named]),
+            ShownValues(
+                self.values,
+                shown,
+                tuple([self.indices[register] for register, _ in body.named]),
+                tuple([kind for _, kind in body.named]),
+            ),
             tuple([self.keys.take(first + self.numbers[child]) for child in body.children]),
             tuple([self._guard(guard, rows) for guard in body.guards]),
         )

@@ -7,7 +7,7 @@ from runtime.determined.present cimport Present
 
 cdef long long CHANGES, DUE, ENDING, FOLLOWER, LEAST, MOST, NONE, OWNER, PREDICATE, ROW, RUNS_ON, SLOT, START, STOPS, WISHED
 cdef long long WISH, WISH_END_FROM, WISH_END_UNTIL, WISH_FROM, WISH_LEAST, WISH_MOST
-cdef double _COARSE, _LARGEST, _NAN, _TOLERANCE
+cdef double _LARGEST, _NAN, _TOLERANCE
 
 
 cdef class Machine:
@@ -29,10 +29,15 @@ cdef class Machine:
 
     cpdef bint tick(self, long long tick) except -1
 
+    @cython.locals(i="long long", k="long long")
+    cpdef bint start_all(self, long long tick) except -1
+
+    @cython.locals(r="double[::1]")
     cpdef bint start_block(self, long long i, long long tick) except -1
 
     cpdef bint can_start(self, long long i, long long tick) except -1
 
+    @cython.locals(r="double[::1]", into="long long")
     cpdef int start(self, long long i, long long predicate) except -1
 
     @cython.locals(out="long long", a="long long", b="long long", j="long long", z="double")

@@ -39,7 +39,6 @@ from runtime.determined.tags import (
 
 _NAN, _TOLERANCE = float("nan"), 1e-5  # the tolerance is that of the engine's floats
 _LARGEST = 2.0**51  # what is larger counts as infinite
-_COARSE = 2.0**32  # beyond it the last places of sums come near the tolerance, where an interval engine decides
 
 
 class Machine:
@@ -105,7 +104,7 @@ class Machine:
             if due > limit:
                 self.why = RUNS_ON
                 return limit
-            if not self.tick(due):
+            if not (self.start_all(due) if present.steps_alone(due) else self.tick(due)):
                 self.why = STOPS
                 self.log.forget_from(due)
                 return due - 1
@@ -118,7 +117,6 @@ class Machine:
         """Carry out one tick; false if the machine does not know how."""
         n = self.lines
         present = self.present
-        self.registers[0] = tick
         if not present.begin_tick(tick):
             return False
         # What follows goes aside before the blocks of this tick say what follows next.
@@ -131,6 +129,13 @@ class Machine:
                     into = self.incoming[i]
                     for j in range(self.width[i]):
                         self.registers[into + j] = self.registers[first + j]
+        return self.start_all(tick)
+
+    def start_all(self, tick: int) -> bool:
+        """Start what takes the place of all that ends; false if the machine does not know how."""
+        n = self.lines
+        present = self.present
+        self.registers[0] = tick
         for k in range(n):
             i = self.order[k]
             if i < 0:
@@ -155,7 +160,7 @@ class Machine:
             present.state[DUE * n + j] = NONE
         present.state[WISH_FROM * n + i] = tick
         self.is_trial = True
-        can = self.start_block(i, tick)
+        can = self.start_block(i, tick) and present.has_length(i)
         self.is_trial = False
         return can
 
@@ -180,13 +185,13 @@ class Machine:
             return False
         self.start(i, self.block_predicate[block])
         mask = self.block_mask[block]
-        first = self.wished[i] if is_wish else self.incoming[i]
-        if present.state[DUE * n + i] >= 0 and present.state[OWNER * n + i] == i:
-            first = self.following[i]
+        is_own = present.state[DUE * n + i] >= 0 and present.state[OWNER * n + i] == i
+        first = self.following[i] if is_own else self.wished[i] if is_wish else self.incoming[i]
         into = self.current[i]
+        r = self.registers
         for j in range(self.width[i]):
             if mask >> j & 1:
-                self.registers[into + j] = self.registers[first + j]
+                r[into + j] = r[first + j]
         if is_wish:
             present.state[LEAST * n + i] = max(
                 tick + present.state[WISH_LEAST * n + i], present.state[WISH_END_FROM * n + i], tick + 1
@@ -200,17 +205,10 @@ class Machine:
             return False
         for row in range(self.root_row, log.row_count):
             line = log.rows[ROW * row + 1]
-            at = log.take(row, self.width[line])
-            for j in range(self.width[line]):
-                value = self.registers[self.current[line] + j]
-                if value >= _COARSE or value <= -_COARSE:
-                    return False
-                log.values[at + j] = value
+            if not log.put(row, r, self.current[line], self.width[line]):
+                return False
         if self.shows:
-            first = self.shown_first[block]
-            at = log.show(self.root_row, self.shown_first[block + 1] - first)
-            for j in range(self.shown_first[block + 1] - first):
-                log.values[at + j] = self.registers[self.shown[first + j]]
+            log.show(self.root_row, r, self.shown, self.shown_first[block], self.shown_first[block + 1])
         return True
 
     def start(self, i: int, predicate: int) -> int:
@@ -218,11 +216,13 @@ class Machine:
         self.present.start(i, predicate)
         self.registers[self.starts[i]] = self.present.now
         first = self.current[i]
+        r = self.registers
         if self.remembers[i]:
+            into = self.previous[i]
             for j in range(self.width[i]):
-                self.registers[self.previous[i] + j] = self.registers[first + j]
+                r[into + j] = r[first + j]
         for j in range(self.width[i]):
-            self.registers[first + j] = _NAN
+            r[first + j] = _NAN
         return 0
 
     def carry_out(self, at: int) -> bool:

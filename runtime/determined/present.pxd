@@ -7,13 +7,17 @@ cdef long long WISH_UNTIL, BEFORE, SECTIONS
 
 
 cdef class Present:
-    cdef public long long lines, before, pairs, now, reach, changed
+    cdef public long long lines, before, pairs, now, reach, changed, alone
     cdef public long long[::1] state, kept, flags, is_used
 
     @cython.locals(k="long long")
     cpdef int clear(self) except -1
 
+    @cython.locals(found="long long", state="long long[::1]")
     cpdef long long next_event(self, long long tick) except? -1
+
+    @cython.locals(state="long long[::1]")
+    cpdef bint steps_alone(self, long long tick) except -1
 
     cpdef bint begin_tick(self, long long tick) except -1
 
@@ -23,10 +27,11 @@ cdef class Present:
 
     cpdef bint is_kept(self, long long at) except -1
 
-    @cython.locals(j="long long", left="long long")
+    @cython.locals(j="long long", left="long long", state="long long[::1]")
     cpdef bint end_tick(self, long long tick) except -1
 
     cpdef bint has_room(self, long long i, long long tick) except -1
+    cpdef bint has_length(self, long long i) except -1
 
     @cython.locals(moved="bint")
     cpdef bint order_ends(self, long long a, long long b) except -1

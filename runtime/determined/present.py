@@ -42,6 +42,7 @@ class Present:
         self.now = 0
         self.reach = 1  # how many ticks ahead of its window a request is looked at
         self.changed = 0  # a bit for each timeline on which a token has started at this tick
+        self.alone = NONE  # the only timeline to which something happens at the next event, if there is just one
         self.clear()
 
     def clear(self) -> int:
@@ -61,25 +62,64 @@ class Present:
     def next_event(self, tick: int) -> int:
         """The first tick after `tick` at which something may end or start by itself."""
         n = self.lines
+        state = self.state
         found = FAR
+        self.alone = NONE
         for i in range(n):
-            if self.state[PREDICATE * n + i] < 0:
+            if state[PREDICATE * n + i] < 0:
                 if not self.is_used[i]:
+                    self.alone = NONE
                     return tick + 1
                 continue
-            slot = self.state[SLOT * n + i]
-            if self.state[MOST * n + slot] < found:
-                found = self.state[MOST * n + slot]
-            if self.state[WISH * n + i] >= 0:
+            slot = state[SLOT * n + i]
+            if state[MOST * n + slot] <= found:
+                self.alone = i if state[MOST * n + slot] < found else NONE
+                found = state[MOST * n + slot]
+            if state[WISH * n + i] >= 0:
                 # A wish is looked at as soon as the token before it may end.
-                due = self.state[WISH_FROM * n + i]
+                due = state[WISH_FROM * n + i]
                 if due - self.reach > tick:
                     due -= self.reach
-                elif self.state[LEAST * n + slot] > due:
-                    due = self.state[LEAST * n + slot]
-                if due < found:
+                elif state[LEAST * n + slot] > due:
+                    due = state[LEAST * n + slot]
+                if due <= found:
+                    self.alone = NONE
                     found = due
-        return max(found, tick + 1)
+        if found <= tick:
+            self.alone = NONE
+            return tick + 1
+        return found
+
+    def steps_alone(self, tick: int) -> bool:
+        """Begin a tick at which a token of one timeline, `alone`, ends, with no other, and is followed by its own.
+
+        False, and nothing done, if other tokens may have to end with it.
+        """
+        n = self.lines
+        state = self.state
+        i = self.alone
+        if i < 0 or self.is_used[i] or state[FOLLOWER * n + i] < 0 or state[OWNER * n + i] != i:
+            return False
+        if state[LEAST * n + state[SLOT * n + i]] > tick:
+            return False
+        for j in range(n):
+            if j != i and state[FOLLOWER * n + j] >= 0 and state[OWNER * n + j] == i:
+                return False
+            if state[WISH * n + j] >= 0 and state[WISH_FROM * n + j] <= tick:
+                return False
+        pairs = self.pairs
+        for k in range(state[pairs]):
+            if state[pairs + 2 + 4 * k] == i and self.is_kept(pairs + 1 + 4 * k):
+                return False
+        self.now = tick
+        self.changed = 0
+        for j in range(n):
+            state[ENDING * n + j] = 0
+            state[DUE * n + j] = NONE
+        state[ENDING * n + i] = 1
+        state[DUE * n + i] = state[FOLLOWER * n + i]
+        state[FOLLOWER * n + i] = NONE
+        return True
 
     def begin_tick(self, tick: int) -> bool:
         """Find what ends at `tick`; false if something should and may not."""
@@ -160,45 +200,42 @@ class Present:
     def end_tick(self, tick: int) -> bool:
         """Let ends that are ordered bound each other; something must hold on each timeline of the reactor."""
         n = self.lines
+        state = self.state
         pairs = self.pairs
-        count = self.state[pairs]
+        count = state[pairs]
         grows = True
         while grows:
             grows = False
             for k in range(count):
                 at = pairs + 1 + 4 * k
-                if self.is_kept(at) and self.order_ends(self.state[at], self.state[at + 1]):
+                if self.is_kept(at) and self.order_ends(state[at], state[at + 1]):
                     grows = True
             for i in range(n):
-                if (
-                    self.state[FOLLOWER * n + i] >= 0
-                    and self.state[OWNER * n + i] != i
-                    and self.state[PREDICATE * n + i] >= 0
-                ):
-                    if self.order_ends(i, self.state[OWNER * n + i]):
+                if state[FOLLOWER * n + i] >= 0 and state[OWNER * n + i] != i and state[PREDICATE * n + i] >= 0:
+                    if self.order_ends(i, state[OWNER * n + i]):
                         grows = True
         for i in range(n):
-            if self.state[PREDICATE * n + i] < 0:
+            if state[PREDICATE * n + i] < 0:
                 if not self.is_used[i]:
                     return False
                 continue
-            slot = self.state[SLOT * n + i]
-            if self.state[LEAST * n + slot] > self.state[MOST * n + slot] or self.state[MOST * n + slot] <= tick:
+            slot = state[SLOT * n + i]
+            if state[LEAST * n + slot] > state[MOST * n + slot] or state[MOST * n + slot] <= tick:
                 return False
-            if self.state[ENDING * n + i] and not self.changed >> i & 1:
+            if state[ENDING * n + i] and not self.changed >> i & 1:
                 return False
-            if self.state[WISH * n + i] >= 0 and not self.has_room(i, tick):
+            if state[WISH * n + i] >= 0 and not self.has_room(i, tick):
                 return False
         # An order whose first end is past has said what it has to say.
         left = 0
         for k in range(count):
             at = pairs + 1 + 4 * k
-            slot = self.state[SLOT * n + self.state[at]]
-            if self.is_kept(at) and self.state[LEAST * n + slot] != self.state[MOST * n + slot]:
+            slot = state[SLOT * n + state[at]]
+            if self.is_kept(at) and state[LEAST * n + slot] != state[MOST * n + slot]:
                 for j in range(4):
-                    self.state[pairs + 1 + 4 * left + j] = self.state[at + j]
+                    state[pairs + 1 + 4 * left + j] = state[at + j]
                 left += 1
-        self.state[pairs] = left
+        state[pairs] = left
         return True
 
     def has_room(self, i: int, tick: int) -> bool:
@@ -208,6 +245,12 @@ class Present:
             return True
         least = self.state[LEAST * n + self.state[SLOT * n + i]] if self.state[PREDICATE * n + i] >= 0 else 0
         return bool(max(least, tick + 1) <= self.state[WISH_UNTIL * n + i])
+
+    def has_length(self, i: int) -> bool:
+        """Whether what holds on a timeline may end at some time after its start."""
+        n = self.lines
+        slot = self.state[SLOT * n + i]
+        return bool(self.state[LEAST * n + slot] <= self.state[MOST * n + slot])
 
     def order_ends(self, a: int, b: int) -> bool:
         """Let the end of `a` be no later than that of `b`; whether a bound has moved."""

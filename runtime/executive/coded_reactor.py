@@ -117,18 +117,15 @@ class CodedReactor(TeleoReactor):
         call = (self.caller, None, 0)
         if self.code is None:
             WATCH.start()
-        before, output = WATCH.call, sys.stdout
+        before, output = WATCH.begin(call), sys.stdout
         try:
-            WATCH.call = call
             sys.stdout = sys.stderr
             if self.code is None:
                 self.code = self.make()
             answer: object = self.code.tick(now)  # type: ignore[func-returns-value]  # so it says, and may not do
         finally:
             sys.stdout = output
-            if WATCH.call is not call:
-                WATCH.astray(call)
-            WATCH.call = before
+            WATCH.end(call, before)
         return answer
 
     def _check_wakes(self) -> None:

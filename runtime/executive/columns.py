@@ -22,17 +22,21 @@ class ValueColumn(NamedTuple):
     has_open: bool
 
 
-class StoredColumn(NamedTuple):
-    """One value per row, `offset` behind the first of its row in a store; read in parts."""
+class ShownValues(NamedTuple):
+    """Values of rows in one store, each some way behind the first of its row; read in parts."""
 
-    kind: str
     store: Array
     first: Array
-    offset: int
+    offsets: tuple[int, ...]
+    kinds: tuple[str, ...]
 
-    def part(self, begin: int, end: int) -> ValueColumn:
+    def part(self, begin: int, end: int) -> list[ValueColumn]:
         """The values of the rows from one on to before another."""
-        return _value_column(self.store.take(self.first[begin:end] + self.offset), self.kind)
+        if not self.offsets:
+            return []
+        least = min(self.offsets)
+        table = table_of(self.store, self.first[begin:end] + least, max(self.offsets) - least + 1)
+        return [_value_column(table[at - least], kind) for at, kind in zip(self.offsets, self.kinds, strict=True)]
 
 
 class StoredValues(NamedTuple):
@@ -70,7 +74,7 @@ class RunColumns(NamedTuple):
     """Runs of one rule; the keys of its children."""
 
     rule: int
-    locals: tuple[StoredColumn, ...]
+    locals: ShownValues
     children: tuple[Array, ...]
     guards: tuple[GuardColumns, ...]
 

@@ -7,19 +7,20 @@ from runtime.executive.view cimport PlanView
 from runtime.plan.lifecycle cimport activate, fire, merge
 from runtime.plan.store.marks cimport commit, mark, release, rewind
 from runtime.plan.store.rows cimport Rows
-from runtime.plan.tokens.archive cimport archive, detach
+from runtime.plan.tokens.archive cimport Leaving, archive, detach
 from runtime.plan.tokens.retraction cimport cancel, remove_tokens, wake_guards
 from runtime.plan.tokens.timelines cimport order
 from runtime.plan.tokens.tokens cimport make_token
 
 cdef long long ACTIVE, END, FIRST_PARAMETER, FLAG_DECISION, FLAG_FACT, FLAG_GOAL, FLAG_REJECTABLE, INACTIVE, KIND_FLOAT, LISTS
 cdef long long LIST_ORDER, MERGED, NONE, OBJECT
-cdef double inf
+cdef double INFINITY, inf
 
 
 cdef class Workbench(PlanView):
     cdef public tuple goals
     cdef public dict goal_numbers
+    cdef public Leaving leaving
 
     cpdef long long mark(self) except? -1
 
@@ -50,6 +51,7 @@ cdef class Workbench(PlanView):
     @cython.locals(names=dict, v="long long")
     cpdef bint restrict_parameters(self, long long t, tuple arguments, long long span) except -1
 
+    @cython.locals(lower=double, upper=double)
     cpdef bint _restrict(self, long long v, domain, long long span, long long t) except -1
 
     @cython.locals(engine=Engine, k="long long", v="long long")

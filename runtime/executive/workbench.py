@@ -19,12 +19,13 @@ from runtime.plan.tags import (
     FLAG_GOAL,
     FLAG_REJECTABLE,
     INACTIVE,
+    INFINITY,
     LIST_ORDER,
     LISTS,
     MERGED,
     NONE,
 )
-from runtime.plan.tokens.archive import archive, detach
+from runtime.plan.tokens.archive import Leaving, archive, detach
 from runtime.plan.tokens.retraction import cancel, remove_tokens, wake_guards
 from runtime.plan.tokens.timelines import order
 from runtime.plan.tokens.tokens import make_token
@@ -40,6 +41,7 @@ class Workbench(PlanView):
         super().__init__(database, name)
         self.goals: tuple[GoalConfiguration, ...] = ()
         self.goal_numbers: dict[int, int] = {}
+        self.leaving = Leaving()
 
     # ---- going back ----
 
@@ -124,6 +126,10 @@ class Workbench(PlanView):
             objects = self.database.objects.names
             known = [objects.index(str(name)) for name in domain.values if name in objects]
             return self.engine.restrict_base_values(v, [float(o) for o in known], span, t)
+        if domain.values is None and domain.interval is not None:
+            lower, upper = domain.interval
+            if lower == upper and -INFINITY < lower < INFINITY:  # what has happened, as a rule
+                return self.engine.restrict_base(v, lower, lower, span, t)
         return restrict_constant(self.database.prototypes, v, domain, span, t)
 
     def make_values(self, t: int) -> None:
@@ -242,7 +248,9 @@ class Workbench(PlanView):
             if (status == ACTIVE or status == MERGED) and self.engine.upper(rows.var0[t] + END) <= tick:
                 if not self.is_kept(t) and t not in kept:
                     over.append(t)
-        return archive(self.plan, over, tick, self.recorder.leave) if over and fire(self.plan) else 0
+        if not over or not fire(self.plan):
+            return 0
+        return archive(self.plan, over, tick, self.leaving, self.recorder.leave)
 
     def tidy(self) -> None:
         """Forget limits of times that a later one of the same kind has made needless: they grow with every tick."""

@@ -51,6 +51,11 @@ def stopped(place: str, what: str, seconds: float) -> UserCodeError:
     return UserCodeError(f"{place}: {what} did not come back within {seconds:g} s and was stopped", advice=advice)
 
 
+def ended(place: str, what: str, how: str) -> UserCodeError:
+    """Say that `what` was at `place` when it took the process with it."""
+    return UserCodeError(f"{place}: {what} ended the process ({how})")
+
+
 def _source_of(calls: Sequence[tuple[str, int]], files: tuple[str, ...]) -> str:
     """The text of the deepest line of `calls` in one of `files`; empty where there is none."""
     own = [each for each in calls if each[0] in files]

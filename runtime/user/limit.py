@@ -3,8 +3,8 @@
 A call costs a few assignments. Every half a second a signal looks whether one is under way that was there before; one
 that is there too long is interrupted, also where it sleeps, waits or matches a pattern. Beside it a thread looks: a
 call that swallows the interruption, or that no signal reaches, takes the process with it, after its place was told.
-Looks are counted, no clock is read: a process that was held does not notice. Out of reach is what neither looks for
-signals nor lets other threads run, as `sum(range(10**12))`.
+Looks are counted, no clock is read: a process that was held does not notice. Out of reach from in here is what neither
+looks for signals nor lets other threads run, as `sum(range(10**12))`: who has a black box of this process sees that.
 """
 
 import atexit
@@ -20,6 +20,7 @@ from types import FrameType
 from typing import NoReturn, Protocol
 
 from runtime.constraints.domains.store import Store
+from runtime.user.black_box import HERE, CallRecorder
 from runtime.user.fault import StoppedError, UserCodeError, place_in, stopped
 
 USUAL = 5.0  # seconds that one call may take
@@ -38,20 +39,29 @@ class Caller(Protocol):
         """What is called, by constraint `c` of an engine, in words."""
 
     @property
+    def title(self) -> str:
+        """What is called, wherever it is."""
+
+    @property
     def files(self) -> tuple[str, ...]:
         """Where the code is written."""
+
+    @property
+    def line(self) -> int:
+        """Where it begins in the first of them."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Plain:
     """A caller of what no model calls."""
 
-    what: str
+    title: str
     files: tuple[str, ...] = ()
+    line: int = 1
 
     def told(self, s: Store | None, c: int) -> str:
         """The same wherever it is."""
-        return self.what
+        return self.title
 
 
 Call = tuple[Caller, Store | None, int]  # who calls, and from which constraint of which engine
@@ -82,8 +92,8 @@ class Watch:
     def __init__(self) -> None:
         self.seconds = USUAL
         self.last_words: Callable[[UserCodeError], None] = _print_last_words
-        # The call that is under way, and after it what was there before; set by whoever calls, as it must cost nothing.
-        self.call: Call | None = None
+        self.call: Call | None = None  # the one that is under way
+        self._box: CallRecorder | None = None
         self._thread = 0  # the one that calls
         self._looks = _Looks()
         self._excused: Call | None = None  # the call that somebody steps through
@@ -105,9 +115,27 @@ class Watch:
             if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
                 signal.signal(signal.SIGINT, self.interrupt)
         os._exit, os.abort = self._exit, self._abort
+        self._box = HERE.recorder
+        if self._box is not None:
+            self._box.limit(self.seconds)
         if not self._is_watching:
             self._is_watching = True
             threading.Thread(target=self._look, name="nddlc limit", daemon=True).start()
+
+    def begin(self, call: Call) -> Call | None:
+        """A call begins; the one that was under way before, for `end`."""
+        before, self.call = self.call, call
+        if self._box is not None:
+            self._box.begin(call[0])
+        return before
+
+    def end(self, call: Call, before: Call | None) -> None:
+        """It ends, in whichever way."""
+        if self.call is not call:
+            self._astray(call)
+        self.call = before
+        if self._box is not None:
+            self._box.end()
 
     def _set_alarm(self) -> None:
         """Have the kernel call; where it cannot, the thread does. Somebody else's alarm is left alone."""
@@ -145,11 +173,12 @@ class Watch:
     def _note_fork(self) -> None:
         """This process is a copy of the one that was here; it has no thread that watches."""
         self._is_watching = False
+        self._box = HERE.recorder = None
         if self.call is not None:
             self._is_copy = True
             self.call = None
 
-    def astray(self, call: Call) -> None:
+    def _astray(self, call: Call) -> None:
         """A call came back that is not the one under way: in a copy of the process, that is its end."""
         if self._is_copy:
             caller, s, c = call
@@ -176,11 +205,14 @@ class Watch:
             return
         if _is_debugged():
             self._excused = self.call
+            if self._box is not None:
+                self._box.excuse()
         elif self.call is not self._excused:
             raise StoppedError(self.seconds)
 
     def _leave(self, problem: UserCodeError) -> None:
         try:
+            HERE.leave()
             self.last_words(problem)
         finally:
             _END(UNUSABLE)
@@ -209,16 +241,13 @@ WATCH = Watch()
 def watched(what: str, files: tuple[str, ...] = ()) -> Iterator[None]:
     """Run what is inside as a call; what it prints goes to standard error, since programs read standard output."""
     call = (Plain(what, files), None, 0)
-    before = WATCH.call
     WATCH.start()
+    before = WATCH.begin(call)
     try:
-        WATCH.call = call
         with redirect_stdout(sys.stderr):
             yield
     finally:
-        if WATCH.call is not call:
-            WATCH.astray(call)
-        WATCH.call = before
+        WATCH.end(call, before)
 
 
 if hasattr(os, "register_at_fork"):

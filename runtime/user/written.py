@@ -38,7 +38,18 @@ class Written(External):
         if self._told is not None:
             return self._told
         place = None if s is None else self.words.source_place(int(s.span[c]))
-        return f"the constraint `{self.name}`{'' if place is None else f', called at {place},'}"
+        return f"{self.title}{'' if place is None else f', called at {place},'}"
+
+    @property
+    def title(self) -> str:
+        """What it is."""
+        return f"the constraint `{self.name}`"
+
+    @property
+    def line(self) -> int:
+        """Where it begins to reckon."""
+        own = type(self.constraint).propagate is not Constraint.propagate
+        return _line_of(self.constraint, "propagate" if own else "holds")
 
     @property
     def source(self) -> tuple[str, int]:
@@ -62,10 +73,9 @@ class Written(External):
             self._rehearse(s, c)
         view = View(s, c, self.words)
         call = (self, s, c)
-        before = WATCH.call
         step = "propagate"
+        before = WATCH.begin(call)
         try:
-            WATCH.call = call
             if not _answered(self.constraint.propagate(view)) or view.has_failed:
                 return view.fail()
             if not has_test(self.constraint) or not all(view.is_single(i) for i in range(view.count)):
@@ -79,9 +89,7 @@ class Written(External):
                 f"`{step}` of {self.told(s, c)}", problem, self.files, _line_of(self.constraint, step)
             ) from problem
         finally:
-            if WATCH.call is not call:
-                WATCH.astray(call)
-            WATCH.call = before
+            WATCH.end(call, before)
             view.close()
 
     def _rehearse(self, s: Engine, c: int) -> None:
@@ -158,6 +166,6 @@ def _files_of(constraint: Constraint) -> tuple[str, ...]:
 
 
 def _line_of(constraint: Constraint, method: str) -> int:
-    """The line in which a method begins."""
-    code = getattr(getattr(type(constraint), method), "__code__", None)
+    """The line in which a method begins, or the function that it calls."""
+    code = getattr(getattr(constraint, "compute", getattr(type(constraint), method)), "__code__", None)
     return 1 if code is None else int(code.co_firstlineno)

@@ -181,3 +181,25 @@ def test_a_real_time_signal_costs_one_mission() -> None:
     lost = {one.number: one.judgement.message for one in taker.results if one.verdict is Verdict.ERROR}
     assert lost == {3: "the process died (signal 40)"}
     assert len(taker.results) == 6
+
+
+@pytest.mark.parametrize(("number", "is_group"), [(signal.SIGINT, True), (signal.SIGTERM, False)])
+def test_a_signal_while_causes_are_sought_leaves_what_was_found(
+    tmp_path: Path, number: signal.Signals, is_group: bool
+) -> None:
+    command = [sys.executable, "-m", "nddlc.main", "check", GPS, "--missions", "20", "--workers", "1"]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    check = subprocess.Popen(
+        command, cwd=tmp_path, text=True, start_new_session=True, stdout=PIPE, stderr=PIPE, env=environment
+    )
+    wait_for(tmp_path, check, 20)
+    time.sleep(0.5)
+    (os.killpg if is_group else os.kill)(check.pid, number)
+    pressed = time.monotonic()
+    out, err = check.communicate(timeout=30)
+    took = time.monotonic() - pressed
+    assert (check.returncode, err) == (128 + number, "")
+    assert "gps: 20 missions, 1 failed" in out
+    assert "interrupted after all missions; left out: causes of fault 1 (in part), the condition of fault 1" in out
+    assert "nddlc explain" in out
+    assert took < 2.0 + LAG

@@ -44,7 +44,7 @@ def run_of(run: RunColumns, row: int, names: list[str]) -> BodyRun:
     guards = tuple(guard_of(each, row, names) for each in run.guards)
     return BodyRun(
         run.rule,
-        tuple(value(each.part(row, row + 1), 0, names) for each in run.locals),
+        tuple(value(each, 0, names) for each in run.locals.part(row, row + 1)),
         tuple(each[row].item() for each in run.children),
         guards,
     )

@@ -253,3 +253,24 @@ def test_the_judge_sees_a_value_that_was_not_computed() -> None:
     tokens = (*reactor.tokens[:place], wrong, *reactor.tokens[place + 1 :])
     altered = record._replace(reactors=(reactor._replace(tokens=tokens),))
     assert judge_mission(agent, programs.programs, outcome, altered).disagreements
+
+
+ARM = """
+class Arm extends AgentTimeline { predicate Rest { } predicate Act { } Arm(Mode m) { super(m, "Rest"); } }
+"""
+LATENCY = 3
+
+
+@pytest.mark.parametrize("rule", ["duration == 0;", "duration <= 0;", "duration == 5;", "end == 12;", "end <= 9;"])
+@pytest.mark.parametrize(
+    ("duration", "end"), [(None, None), ((3, 3), None), ((0, 0), None), (None, (9, 9)), (None, (5, 20))]
+)
+def test_what_cannot_last_as_it_must_is_refused_as_soon_as_in_general(
+    rule: str, duration: tuple[int, int] | None, end: tuple[int, int] | None
+) -> None:
+    text = f"{ARM} Arm::Act {{ {rule} }} Arm arm = new Arm(Internal); close();"
+    for start in ((5, 8), (20, 20)):
+        goal = GoalConfiguration("arm", "Act", mandatory=True, start=start, end=end, duration=duration)
+        case = Case((simulator("sim", text, "arm", latency=LATENCY),), (goal,))
+        assert case.is_compiled()
+        assert told(case.fly(1, compiles=True)) == told(case.fly(1, compiles=False))

@@ -15,6 +15,15 @@ class SparseSet:
         self.items = array("q", bytes(_FIRST_ROOM))
         self.count = 0
 
+    def empty(self, room: int) -> int:
+        """Forget all numbers; those up to before `room` can be added from now on."""
+        for i in range(self.count):
+            self.marks[self.items[i]] = 0
+        self.count = 0
+        if len(self.marks) < room:
+            self.marks = array("b", bytes(2 * room))
+        return 0
+
     def add(self, number: int) -> int:
         """Add a number, unless it is there."""
         if self.marks[number]:

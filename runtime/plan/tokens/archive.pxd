@@ -10,8 +10,12 @@ cdef long long KIND_FLOAT, MERGED, NONE, ROLE_LOCAL, ROLE_TOKEN, SCOPE_GUARD, ST
 cdef long long SUPPORT_RESTRICTION
 
 
+cdef class Leaving:
+    cdef public SparseSet variables, supports, near
+
+
 @cython.locals(t="long long")
-cpdef long long archive(Plan plan, list tokens, long long tick, object record=*) except? -1
+cpdef long long archive(Plan plan, list tokens, long long tick, Leaving leaving, object record) except? -1
 
 
 @cython.locals(child="long long", known=dict, t="long long")
@@ -39,7 +43,7 @@ cpdef void detach(Plan plan, long long t) except *
 @cython.locals(
     c="long long", going=SparseSet, gone=SparseSet, i="long long", k="long long", near=SparseSet, v="long long"
 )
-cpdef list _freeze(Plan plan, dict doomed)
+cpdef list _freeze(Plan plan, dict doomed, Leaving leaving)
 
 
 @cython.locals(lower=double, r="long long", upper=double)
@@ -47,10 +51,10 @@ cpdef list _outdone(Plan plan, long long v)
 
 
 @cython.locals(
-    c="long long", e="long long", going=SparseSet, h="long long", i="long long", k="long long", kind="long long",
+    c="long long", e="long long", h="long long", i="long long", k="long long", kind="long long",
     s="long long", slot="long long", t="long long", v="long long",
 )
-cpdef SparseSet _belongings(Plan plan, dict doomed, SparseSet gone)
+cpdef void _gather(Plan plan, dict doomed, SparseSet gone, SparseSet going) except *
 
 
 @cython.locals(is_lower_going=bint, is_real=bint, is_upper_going=bint, lower="long long", upper="long long")

@@ -34,14 +34,24 @@ from runtime.plan.tags import (
 from runtime.plan.tokens.retraction import remove_tokens
 
 
-def archive(plan: Plan, tokens: list[int], tick: int, record: Callable[[list[int], int], None] | None = None) -> int:
+class Leaving:
+    """What goes with tokens that leave, and what is near it; the sets are made once and filled anew each time."""
+
+    def __init__(self) -> None:
+        self.variables = SparseSet(256)
+        self.supports = SparseSet(256)
+        self.near = SparseSet(256)
+
+
+def archive(
+    plan: Plan, tokens: list[int], tick: int, leaving: Leaving, record: Callable[[list[int], int], None]
+) -> int:
     """Take out those of `tokens`, which are over at `tick`, that may go, `record` them before; how many went."""
     doomed = _removable(plan, tokens, tick)
     if not doomed:
         return 0
-    if record is not None:
-        record(list(doomed), tick)
-    frozen = _freeze(plan, doomed)
+    record(list(doomed), tick)
+    frozen = _freeze(plan, doomed, leaving)
     for t in doomed:
         _orphan(plan, t, doomed)
     remove_tokens(plan, list(doomed))
@@ -130,15 +140,17 @@ def detach(plan: Plan, t: int) -> None:
         plan.rows.detach(t)
 
 
-def _freeze(plan: Plan, doomed: dict[int, None]) -> list[int]:
+def _freeze(plan: Plan, doomed: dict[int, None], leaving: Leaving) -> list[int]:
     """Put into base domains what edges and constraints that go with the `doomed` tokens say of other variables.
 
     Gives the variables that have got new limits.
     """
     engine = plan.engine
-    gone = SparseSet(engine.variables)
-    going = _belongings(plan, doomed, gone)
-    near = SparseSet(engine.variables)
+    gone, going, near = leaving.variables, leaving.supports, leaving.near
+    gone.empty(engine.variables)
+    going.empty(4 * max(engine.edges_used, engine.constraints_used, engine.restrictions_used) + 4)
+    near.empty(engine.variables)
+    _gather(plan, doomed, gone, going)
     for i in range(going.count):
         if going.items[i] & 3 == SUPPORT_EDGE:
             near.add(engine.edge_source[going.items[i] >> 2])
@@ -173,10 +185,9 @@ def _outdone(plan: Plan, v: int) -> list[int]:
     return found
 
 
-def _belongings(plan: Plan, doomed: dict[int, None], gone: SparseSet) -> SparseSet:
-    """What edges, constraints and restrictions that go with tokens support by; `gone` gets the variables that go."""
+def _gather(plan: Plan, doomed: dict[int, None], gone: SparseSet, going: SparseSet) -> None:
+    """Gather the variables that go, and in `going` what the edges, constraints and restrictions support by that go."""
     engine, rows = plan.engine, plan.rows
-    going = SparseSet(4 * max(engine.edges_used, engine.constraints_used, engine.restrictions_used) + 4)
     for t in doomed:
         for v in range(rows.var0[t], rows.var0[t] + rows.width[t]):
             gone.add(v)
@@ -217,7 +228,6 @@ def _belongings(plan: Plan, doomed: dict[int, None], gone: SparseSet) -> SparseS
                 going.add(engine.link_a[c] * 4 + SUPPORT_EDGE)
             if engine.link_b[c] >= 0:
                 going.add(engine.link_b[c] * 4 + SUPPORT_EDGE)
-    return going
 
 
 def _keep_domain(plan: Plan, v: int, going: SparseSet) -> bool:

@@ -11,7 +11,9 @@ cdef long long TRAIL_NARROWING, TRAIL_RESTRICTION, TRAIL_VARIABLE, UNBOUND_VARIA
 cdef long long UNDO_NEW_TOKEN, UNDO_STATUS
 
 
-@cython.locals(role="long long", s="long long", t="long long", v="long long")
+@cython.locals(
+    kind="long long", latest="long long", role="long long", s="long long", t="long long", v="long long"
+)
 cpdef int rebuild(Agenda agenda) except -1
 
 
@@ -49,6 +51,9 @@ cpdef int _add_token(Agenda agenda, long long t, long long flaw) except -1
 
 @cython.locals(is_ordered=bint)
 cpdef int _add_threat(Agenda agenda, long long t) except -1
+
+
+cpdef bint _may_be_flaw(Agenda agenda, long long kind, long long number) except -1
 
 
 cpdef int _add_variable(Agenda agenda, long long v) except -1

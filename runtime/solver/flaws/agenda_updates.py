@@ -41,18 +41,26 @@ def rebuild(agenda: Agenda) -> None:
         elif agenda.rows.status[t] == ACTIVE:
             _add_threat(agenda, t)
     engine = agenda.engine
+    latest = kind = NONE  # of the variables of a token, which stand side by side
     for v in range(engine.variables):
         # What is decided, which most are, is never a flaw.
         if engine.kind[v] < 0 or engine.constant[v] or engine.decided[v]:
             continue
+        role = agenda.plan.variable_role[v]
+        if role == ROLE_INTERNAL:
+            continue
+        if role == ROLE_TOKEN or role == ROLE_LOCAL:
+            t = agenda.plan.variable_owner[v]
+            if agenda.rows.status[t] != ACTIVE:
+                continue
+            if role == ROLE_TOKEN:
+                if t != latest:
+                    latest, kind = t, _kind_of(agenda, t)
+                if not _may_be_flaw(agenda, kind, v - agenda.rows.var0[t]):
+                    continue
         if not agenda.exact and is_single(engine, v) and is_base_single(engine, v):
             continue
-        role = agenda.plan.variable_role[v]
-        if role == ROLE_TOKEN or role == ROLE_LOCAL:
-            if agenda.rows.status[agenda.plan.variable_owner[v]] == ACTIVE:
-                _add_variable(agenda, v)
-        elif role == ROLE_GLOBAL or role == ROLE_MEMBER:
-            _add_variable(agenda, v)
+        _add_variable(agenda, v)
     for s in range(agenda.rows.scope_count):
         if agenda.rows.scope_watch[s] >= 0 and agenda.rows.scope_branch[s] == BRANCH_WAITING:
             agenda.waiting_guards[0] += 1
@@ -213,6 +221,15 @@ def _add_token(agenda: Agenda, t: int, flaw: int) -> None:
                 if flaw == OPEN_CONDITION and agenda.rows.flags[t] & FLAG_EFFECT:
                     agenda.offer_effect(slot)
                 agenda.offer_token(slot)
+
+
+def _may_be_flaw(agenda: Agenda, kind: int, number: int) -> bool:
+    """Whether some manager decides variable `number` of tokens of a kind, when it is unbound."""
+    table = agenda.table
+    for manager in range(table.managers):
+        if table.manager_kind[manager] == UNBOUND_VARIABLE and table.variable_row(manager, kind, number) >= 0:
+            return True
+    return False
 
 
 def _add_variable(agenda: Agenda, v: int) -> int:

@@ -1,0 +1,61 @@
+"""Edits that wait for a trial, the likeliest first; what a trial tells of one line changes the turn of others.
+
+Where a change of a line has helped, the mistake is at that line or at one that hangs together with it by a variable:
+`REPORT_AFTER` ten times as large helps where `take.start` is written for `take.end` beside it. Where a change left the
+failure as it was, to the last event, the line has no part in it.
+"""
+
+import heapq
+from collections.abc import Callable, Collection
+from itertools import count
+
+from checker.counterfactual.candidates import Candidate
+from checker.mutation.edits import EditSite, SmallEdit
+
+_BESIDE = 0.5  # how much of the wait is left for an edit of a line beside one that has helped
+_IDLE = 0.8  # how much later the edits of a line are tried that has no part in the failure
+
+_Entry = tuple[float, int, Candidate, SmallEdit]
+
+
+class Turns:
+    """A queue whose order changes; `beside` tells the lines that hang together with one."""
+
+    def __init__(self, beside: Callable[[EditSite], Collection[EditSite]]) -> None:
+        self._beside = beside
+        self._queue: list[_Entry] = []
+        self._order = count()
+        self._favoured: set[EditSite] = set()
+        self._doubted: set[tuple[EditSite, int]] = set()
+
+    def __bool__(self) -> bool:
+        return bool(self._queue)
+
+    def add(self, at: float, candidate: Candidate, edit: SmallEdit) -> None:
+        """Let an edit wait until `at`."""
+        heapq.heappush(self._queue, (at, next(self._order), candidate, edit))
+
+    def pop(self) -> tuple[float, Candidate, SmallEdit]:
+        """The edit whose turn it is."""
+        at, _, candidate, edit = heapq.heappop(self._queue)
+        return at, candidate, edit
+
+    def favour(self, site: EditSite) -> None:
+        """Try the lines beside one that has helped sooner."""
+        new = set(self._beside(site)) - self._favoured
+        self._favoured |= new
+        self._queue = [
+            (at * _BESIDE if candidate.site in new and at > 0.0 else at, number, candidate, edit)
+            for at, number, candidate, edit in self._queue
+        ]
+        heapq.heapify(self._queue)
+
+    def doubt(self, site: EditSite, place: int) -> None:
+        """Try what else may stand at a place of a line later."""
+        if (site, place) not in self._doubted:
+            self._doubted.add((site, place))
+            self._queue = [
+                (at + _IDLE if candidate.site is site and edit.begin == place else at, number, candidate, edit)
+                for at, number, candidate, edit in self._queue
+            ]
+            heapq.heapify(self._queue)
