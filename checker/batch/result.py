@@ -19,7 +19,7 @@ from checker.sampling.sampler import RANDOM_POINT, SamplePoint
 from runtime.executive.events import EventLog
 from runtime.executive.outcome import Draw, OpenGoal, Outcome
 
-T = TypeVar("T")
+_T = TypeVar("_T")
 _JSON = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"))
 _ATOMS = frozenset({str, int, float, bool, type(None)})  # that JSON says as they are
 
@@ -101,7 +101,7 @@ def write_record(value: object) -> str:
     return _JSON.encode(_plain(value, {}))
 
 
-def read_record(kind: type[T], text: str) -> T:
+def read_record(kind: type[_T], text: str) -> _T:
     """The value of a type that `write_record` wrote."""
     found = _read(kind, json.loads(text))
     assert isinstance(found, kind)
