@@ -3,7 +3,7 @@
 import math
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from signal import Signals
@@ -19,6 +19,7 @@ from checker.batch.worker import Load, Task, fly_one
 from checker.buckets import Key, bucket_key
 from checker.conditions.record import Conditions
 from checker.contrast import Contrast, find_contrast
+from checker.counterfactual.ranking import Causes
 from checker.counterfactual.search import CauseSearch, Suspended
 from checker.counterfactual.trials import Bounds
 from checker.drawn import Drawn, drawn_paths
@@ -152,6 +153,7 @@ class Campaign:
         bounds: Bounds | None = None,
         seconds: float = math.inf,
         conditions: Conditions | None = None,
+        causes: Mapping[int, Causes] | None = None,
         cases: tuple[FlownCase, ...] = (),
         progress: Callable[[int], None] | None = None,
         let: Interruptible = uninterrupted,
@@ -159,8 +161,8 @@ class Campaign:
         """Judge the results; with `may_fly` conditions are sought and tested by flights, which `progress` counts.
 
         Lines that may be the cause of a fault are tried within `bounds`, for all faults together no longer than
-        `seconds`. With a `focus` all that is done only for the fault that mission `focus` belongs to. Of `conditions`
-        are those that are known already. `let` carries out each search, and ends it where a signal comes.
+        `seconds`. With a `focus` all that is done only for the fault that mission `focus` belongs to. `conditions`
+        and `causes` are known already, by example. `let` carries out each search, and ends it where a signal comes.
         """
         run, agent = self.run, self.models.agent
         is_flying = may_fly and ending is not Ending.SIGNAL
@@ -182,6 +184,7 @@ class Campaign:
                 ending=ending,
                 focus=focus,
                 conditions=conditions,
+                causes=causes,
                 text=self._text(),
                 cases=cases,
                 sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),

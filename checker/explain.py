@@ -30,7 +30,7 @@ def story_text(story: Story, run_id: str, excerpts: Excerpts, most: int = MOST_C
         "",
     ]
     if story.fault is not None and story.fault.causes.tried:
-        lines += [*_cause_lines(story.fault.causes, excerpts, most), "", "what happened:"]
+        lines += [*_cause_lines(story, story.fault.causes, excerpts, most), "", "what happened:"]
     causes = [cause.place for cause in story.fault.causes.ranked[:most]] if story.fault is not None else []
     for index, step in enumerate(story.steps, 1):
         lines += _step_lines(index, step, story, excerpts, causes)
@@ -42,11 +42,12 @@ def story_text(story: Story, run_id: str, excerpts: Excerpts, most: int = MOST_C
     return "\n".join(lines) + "\n"
 
 
-def _cause_lines(causes: Causes, excerpts: Excerpts, most: int) -> list[str]:
+def _cause_lines(story: Story, causes: Causes, excerpts: Excerpts, most: int) -> list[str]:
     """The lines to look at, each with what its trial showed."""
+    effort = effort_text(causes, "the same mission" if causes.flown in (0, story.number) else "one that fails alike")
     if not causes.ranked:
-        return [f"no change of one line makes it pass ({effort_text(causes)})"]
-    lines = [f"causes, the likeliest first ({effort_text(causes)}):"]
+        return [f"no change of one line makes it pass ({effort})"]
+    lines = [f"causes, the likeliest first ({effort}):"]
     for place, cause in enumerate(causes.ranked[:most], 1):
         lines += [f"{place:>4}  {claim_text(cause)}", *excerpt_lines(cause.place, excerpts, marked=place == 1)]
     if len(causes.ranked) > most:

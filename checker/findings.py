@@ -1,6 +1,6 @@
 """All missions of a run in, what there is to say about it out: the rate, and each fault with its line and condition."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
@@ -139,6 +139,7 @@ def assess(
     sampling: Sampling = RANDOMLY,
     seeker: Seeker | None = None,
     conditions: Conditions | None = None,
+    causes: Mapping[int, Causes] | None = None,
     text: ModelText | None = None,
     cases: tuple[FlownCase, ...] = (),
     let: Interruptible = uninterrupted,
@@ -146,8 +147,8 @@ def assess(
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
     With a `focus` it does so only for the fault that mission `focus` belongs to. So does `seeker`, which finds causes;
-    without a focus, buckets of one cause become one fault. Of `conditions` are those that are known already; `text` is
-    what z3 reads the meaning of lines from. `let` carries out each search, and ends it where a signal comes.
+    without a focus, buckets of one cause become one fault. `conditions` and `causes` are known already; `text` is what
+    z3 reads the meaning of lines from. `let` carries out each search, and ends it where a signal comes.
     """
     by_number = sorted(results, key=lambda result: result.number)
     ordered = tuple(result for result in by_number if result.number > 0)
@@ -164,8 +165,8 @@ def assess(
         rate = replace(rate, exceeds=True, is_certain=True)
     faults: list[Fault] = []
     buckets = _alike(group_failures(ordered), conditions or {})
-    sought = _with_causes(buckets, ordered, seeker, focus, let)
-    for position, (bucket, causes) in enumerate(sorted(sought, key=lambda one: -len(one[0].missions))):
+    sought = _with_causes(buckets, ordered, seeker, focus, causes or {}, let)
+    for position, (bucket, found) in enumerate(sorted(sought, key=lambda one: -len(one[0].missions))):
         is_wanted = position < MOST_SOUGHT if focus is None else focus in bucket.missions
         members = set(bucket.missions)
         interval, _ = rate_interval(
@@ -176,7 +177,7 @@ def assess(
         )
         fault = let(partial(_fault, bucket, ordered, agent, seed, refly if is_wanted else None, conditions or {}, text))
         fault = Fault(bucket, None, None, is_cut=True) if fault is None else fault
-        faults.append(replace(fault, interval=interval, causes=causes))
+        faults.append(replace(fault, interval=interval, causes=found))
     is_cut = any(one.is_cut or one.causes.ended is TrialsEnd.CANCELLED for one in faults)
     return Findings(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending,
@@ -189,6 +190,7 @@ def _with_causes(
     results: tuple[MissionResult, ...],
     seeker: Seeker | None,
     focus: int | None,
+    known: Mapping[int, Causes],
     let: Interruptible,
 ) -> list[tuple[Bucket, Causes]]:
     """Buckets, those of one fault joined, with the causes that a seeker finds; with a focus only for its bucket."""
@@ -196,15 +198,13 @@ def _with_causes(
         return [(bucket, NO_CAUSES) for bucket in buckets]
     if focus is None:
         return faults_of(buckets, results, seeker, let)
-    return [
-        (
-            one,
-            (let(partial(seeker.causes, missions_of(one, results, focus))) or CANCELLED)
-            if focus in one.missions
-            else NO_CAUSES,
-        )
-        for one in buckets
-    ]
+    found: list[tuple[Bucket, Causes]] = []
+    for one in buckets:
+        causes = known.get(one.example, NO_CAUSES) if focus in one.missions else NO_CAUSES
+        if focus in one.missions and not causes.is_sought:
+            causes = let(partial(seeker.causes, missions_of(one, results, focus))) or CANCELLED
+        found.append((one, causes))
+    return found
 
 
 def _fault(

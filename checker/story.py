@@ -208,11 +208,20 @@ def _conflict(conflict: Conflict | None, confirmation: Confirmation | None) -> l
         if number != culprit.number
         and number in needed
         and element.kind is not ElementKind.SAMPLE
+        and not _is_only_resource(element, conflict)
         and (element.place is None or element.place not in culprit.limits)
     ]
     if culprit.element is not None:
         steps.append(Step(StepKind.FAULT, None, culprit.element, culprit.place, culprit.limits))
     return steps
+
+
+def _is_only_resource(element: ConflictElement, conflict: Conflict) -> bool:
+    """Whether an element says that a use is of the only resource there is; the resource names its users."""
+    if element.kind is not ElementKind.DECLARATION or element.place is not None:
+        return False
+    named = {one for other in conflict.elements if other.kind is ElementKind.RESOURCE for one in other.variables}
+    return any(one.kind == "object" and one in named for one in element.variables)
 
 
 def _tried(outcome: Outcome) -> list[Step]:

@@ -13,6 +13,7 @@ import click
 from checker.batch.interruption import Interruption
 from checker.batch.pool import FlyBatch
 from checker.batch.process import keeping_a_worker
+from checker.batch.result import write_record
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
 from checker.conditions.record import write_condition
@@ -180,12 +181,14 @@ def _promoted(campaign: Campaign, file: Path) -> tuple[RegressionCase, ...]:
 
 
 def _keep(findings: Findings, store_path: Path) -> None:
-    """Have the store remember the conditions, so that `explain` need not fly for them; it can if that fails."""
+    """Have the store remember conditions and causes, so that `explain` need not fly for them; it can if that fails."""
     faults = [fault for fault in findings.faults if not fault.is_cut]
     known = {fault.bucket.example: write_condition(fault.condition) for fault in faults}
     known |= {part: write_condition(one.bucket.example) for one in faults for part in one.bucket.parts[1:]}
+    causes = {fault.bucket.example: write_record(fault.causes) for fault in faults if fault.causes.is_sought}
     with suppress(StoreError), open_store(store_path) as store:
         store.keep_conditions(findings.run_id, known)
+        store.keep_causes(findings.run_id, causes)
 
 
 def _prepare(

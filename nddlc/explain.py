@@ -6,12 +6,13 @@ from pathlib import Path
 
 import click
 
-from checker.batch.result import MissionResult
+from checker.batch.result import MissionResult, read_record
 from checker.batch.store import LATEST, Run, RunStore, StoreError, open_store
 from checker.batch.worker import fly_one
 from checker.campaign import Campaign
 from checker.conditions.record import read_condition
 from checker.contrast_rendering import contrast_data, contrast_lines
+from checker.counterfactual.ranking import Causes
 from checker.counterfactual.trials import MOST_FLIGHTS, MOST_SECONDS, Bounds
 from checker.excerpts import Excerpts
 from checker.explain import MOST_CAUSES, result_data, result_text, story_data, story_text
@@ -109,6 +110,8 @@ def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_tr
     campaign, is_same = campaign_of(run, is_trusted)
     results = tuple(campaign.judged(one) for one in store.results(run.id))
     first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
+    kept = {example: read_record(Causes, text) for example, text in store.causes(run.id).items()}
+    causes = {example: one for example, one in kept.items() if one.is_all_of(bounds.flights)}
     conditions = {example: read_condition(text) for example, text in store.conditions(run.id).items()}
     with SeekingDisplay() as seeking:
         findings = campaign.assess(
@@ -117,6 +120,7 @@ def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_tr
             focus=first,
             bounds=bounds if bounds.flights else None,
             conditions=conditions,
+            causes=causes,
             progress=seeking,
         )
     findings = replace(findings, run_id=run.id)

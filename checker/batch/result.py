@@ -10,7 +10,7 @@ from functools import cache, partial
 from itertools import repeat
 from operator import attrgetter
 from types import UnionType
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from checker.batch.kept_trace import read_trace, write_trace
 from checker.losses import NO_LOSSES, Losses
@@ -19,6 +19,7 @@ from checker.sampling.sampler import RANDOM_POINT, SamplePoint
 from runtime.executive.events import EventLog
 from runtime.executive.outcome import Draw, OpenGoal, Outcome
 
+_T = TypeVar("_T")
 _JSON = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"))
 _ATOMS = frozenset({str, int, float, bool, type(None)})  # that JSON says as they are
 
@@ -92,6 +93,18 @@ def read_result(text: str) -> MissionResult:
     """The result that `write_result` wrote."""
     found = _read(MissionResult, json.loads(text))
     assert isinstance(found, MissionResult)
+    return found
+
+
+def write_record(value: object) -> str:
+    """A frozen dataclass of others, enums and plain values as a line of JSON."""
+    return _JSON.encode(_plain(value, {}))
+
+
+def read_record(kind: type[_T], text: str) -> _T:
+    """The value of a type that `write_record` wrote."""
+    found = _read(kind, json.loads(text))
+    assert isinstance(found, kind)
     return found
 
 

@@ -50,6 +50,12 @@ CREATE TABLE IF NOT EXISTS conditions (
     text TEXT NOT NULL,
     PRIMARY KEY (run, example)
 ) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS causes (
+    run TEXT NOT NULL,
+    example INTEGER NOT NULL,
+    text TEXT NOT NULL,
+    PRIMARY KEY (run, example)
+) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS missions (
     run TEXT NOT NULL,
     number INTEGER NOT NULL,
@@ -193,6 +199,16 @@ class RunStore:
     def conditions(self, run_id: str) -> dict[int, str]:
         """What `keep_conditions` kept."""
         return dict(self._rows("SELECT example, text FROM conditions WHERE run = ?", run_id))
+
+    def keep_causes(self, run_id: str, texts: Mapping[int, str]) -> None:
+        """Remember what trials have shown of faults, by the number of the example."""
+        rows = [(run_id, example, text) for example, text in texts.items()]
+        with self._guarded(), self._connection:
+            self._connection.executemany("INSERT OR REPLACE INTO causes VALUES (?, ?, ?)", rows)
+
+    def causes(self, run_id: str) -> dict[int, str]:
+        """What `keep_causes` kept."""
+        return dict(self._rows("SELECT example, text FROM causes WHERE run = ?", run_id))
 
     def failures(self, run: Run) -> tuple[RegressionCase, ...]:
         """The missions that failed in other runs of the same mission file, in the order in which they were kept."""

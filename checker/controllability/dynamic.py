@@ -26,11 +26,12 @@ class _Call:
 
     __slots__ = ("distance", "done", "node", "queue", "via", "waits")
 
-    def __init__(self, node: int) -> None:
+    def __init__(self, node: int, count: int, most: int) -> None:
         self.node = node
-        self.distance: dict[int, int] = {node: 0}
+        self.distance = [most] * count
+        self.distance[node] = 0
         self.via: dict[int, tuple[_Edge, int]] = {}  # the first edge of the path from a node, and where it leads
-        self.queue: list[tuple[int, int]] = []
+        self.queue: list[int] = []  # length times the number of nodes, plus the node
         self.done: set[int] = set()
         self.waits = -1
 
@@ -38,6 +39,7 @@ class _Call:
 class _Propagation:
     def __init__(self, network: UncertainNetwork) -> None:
         count = network.points + len(network.links)
+        self.count = count
         self.into: list[list[_Edge]] = [[] for _ in range(count)]  # negative ones
         self.upper: list[list[_Edge]] = [[] for _ in range(count)]  # the others
         self.least: list[dict[int, int]] = [{} for _ in range(count)]  # the smallest weight of ordinary edges
@@ -92,20 +94,20 @@ class _Propagation:
         return None
 
     def _begin(self, node: int) -> _Call:
-        call = _Call(node)
+        call = _Call(node, self.count, self.most)
         for edge in self.into[node]:
-            if edge[1] < call.distance.get(edge[0], 0):
+            if edge[1] < call.distance[edge[0]]:
                 call.distance[edge[0]] = edge[1]
                 call.via[edge[0]] = (edge, node)
-                heappush(call.queue, (edge[1], edge[0]))
+                heappush(call.queue, edge[1] * self.count + edge[0])
         return call
 
     def _go_on(self, call: _Call) -> int:
         """Propagate until a negative node has to be done first, which is told; -1 at the end."""
         queue, distance, via, done, source = call.queue, call.distance, call.via, call.done, call.node
-        most = self.most
+        count, upper = self.count, self.upper
         while queue:
-            length, node = heappop(queue)
+            length, node = divmod(heappop(queue), count)
             if node in done or length > distance[node]:
                 continue
             if length >= 0:
@@ -113,18 +115,18 @@ class _Propagation:
                 self._add(node, source, length, call)
                 continue
             if self.negative[node] and not self.finished[node]:
-                heappush(queue, (length, node))
+                heappush(queue, length * count + node)
                 call.waits = node
                 return node
             done.add(node)
-            for edge in self.upper[node]:
-                earlier = edge[0]
-                total = length + edge[1]
+            for edge in upper[node]:
+                earlier, weight, is_lower, _ = edge
+                total = length + weight
                 # The vehicle cannot be both at once and as late as it may.
-                if total < distance.get(earlier, most) and not (edge[2] and earlier == source):
+                if total < distance[earlier] and not (is_lower and earlier == source):
                     distance[earlier] = total
                     via[earlier] = (edge, node)
-                    heappush(queue, (total, earlier))
+                    heappush(queue, total * count + earlier)
         return -1
 
     def _cycle(self, calls: list[_Call], node: int) -> tuple[object, ...]:

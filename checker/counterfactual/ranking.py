@@ -61,11 +61,17 @@ class Causes:
     tried: int = 0
     flights: int = 0
     ended: TrialsEnd = TrialsEnd.COMPLETE
+    flown: int = 0  # the number of the failed mission
 
     @property
     def is_sought(self) -> bool:
         """Whether anything was tried, or would have been with more time."""
         return self.flights > 0 or self.ended is not TrialsEnd.COMPLETE
+
+    def is_all_of(self, flights: int) -> bool:
+        """Whether so many flights would show no more."""
+        ended = self.is_sought and self.ended is TrialsEnd.COMPLETE
+        return ended or (self.ended is TrialsEnd.FLIGHTS and self.flights >= flights)
 
     @property
     def first(self) -> RankedLine | None:

@@ -55,10 +55,10 @@ def _change_text(change: SmallEdit) -> str:
     return f"change `{_short(change.old)}` to `{_short(change.new)}`"
 
 
-def effort_text(causes: Causes) -> str:
+def effort_text(causes: Causes, mission: str = "the same mission") -> str:
     """How much was tried, and whether that is all."""
     lines = f"{causes.tried} line{'' if causes.tried == 1 else 's'}"
-    text = f"{lines} tried in {causes.flights} flight{'' if causes.flights == 1 else 's'} of the same mission"
+    text = f"{lines} tried in {causes.flights} flight{'' if causes.flights == 1 else 's'} of {mission}"
     match causes.ended:
         case TrialsEnd.COMPLETE:
             return text

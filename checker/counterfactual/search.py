@@ -52,7 +52,8 @@ class CauseSearch:
         """The causes of one fault."""
         left = max(self._deadline - time.monotonic(), 0.0)
         bounds = replace(self._bounds, seconds=min(self._bounds.seconds, left))
-        return rank(find_causes(missions, self._world, bounds), Path(self._world.agent.root))
+        found = rank(find_causes(missions, self._world, bounds), Path(self._world.agent.root))
+        return replace(found, flown=missions.failed[0].number)
 
     def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
         """Whether the change of a cause makes another failed mission pass, with all goals; False where time is over."""

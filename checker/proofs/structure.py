@@ -145,12 +145,12 @@ class _ReactorReader:
         self._value(self.symbols.variable(f"{self.configuration.name}:{token.key}.object", "object"), token.object)
         name = f"{token.predicate}#{token.key}"
         self.found.demands.append(Demand("temporalDistance", (start, length, end), end - start == length, None, name))
-        least = 0 if self.names.predicates[token.predicate].is_event else 1
-        self.found.demands.append(gap(start, end, least, inf, None, name, self.configuration.name))
-        if isinstance(token.end, int):
-            self.found.demands.append(
-                gap(z3.IntVal(0), end, -inf, self.final_tick, None, name, self.configuration.name)
-            )
+        shortest = 0 if self.names.predicates[token.predicate].is_event else 1
+        self.found.demands.append(gap(start, end, shortest, inf, None, name, self.configuration.name))
+        if isinstance(token.end, int):  # what goes on when the mission ends does so in all of the structure
+            goes_on = token.end > self.final_tick
+            least, most = (self.final_tick, inf) if goes_on else (-inf, self.final_tick)
+            self.found.demands.append(gap(z3.IntVal(0), end, least, most, None, name, self.configuration.name))
         code = self.names.predicates[token.predicate]
         for k, parameter in enumerate(code.parameters):
             target = self.number(token.key, FIRST_PARAMETER + k)

@@ -16,6 +16,7 @@ from checker.proofs.certify import Certainty, Certifier
 from checker.proofs.constants import places_of, safe_constant, with_value
 from runtime.executive.outcome import Outcome
 from runtime.executive.record import MissionRecord
+from tests.checker.conditions.campaigns import campaign
 
 MODELS = Path(__file__).parents[2] / "models"
 # The 10^5 missions of the goal: NDDLC_PROOFS=100000.
@@ -110,6 +111,14 @@ def test_a_safe_constant_is_the_least_one(name: str, least: int, tmp_path: Path)
         overlay = with_value(place, value)
         assert overlay is not None
         assert certifier(path, overlay).certify().certainty is certainty
+
+
+def test_a_token_may_go_on_when_the_mission_ends(tmp_path: Path) -> None:
+    campaign(tmp_path, "p + q + r <= 3.0;")  # the last wait ends two ticks after the mission
+    proof = certifier(tmp_path / "mission.toml")
+    assert proof.certify(corners=False).certainty is Certainty.CERTIFIED
+    for point in (*proof.box.corners(), *proof.box.drawn(MOST, 7)):
+        assert proof.fly(point)[2], point
 
 
 def test_what_code_does_is_not_proved() -> None:

@@ -2,11 +2,16 @@
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from checker.batch.result import read_record, write_record
+from checker.batch.store import open_store
 from checker.batch.worker import Load
+from checker.counterfactual.ranking import Causes
+from nddlc.check import STORE
 from nddlc.main import run
 from tests.checker.fake_agent import load_broken, load_split, load_troubled
 
@@ -163,3 +168,21 @@ def test_a_parameter_that_no_model_samples_is_refused(agent: None, capsys: pytes
     printed = capsys.readouterr().out
     assert "no model samples a parameter `GPS_HITRATE`" in printed
     assert "did you mean `GPS_HIT_RATE`?" in printed
+
+
+def test_causes_that_the_check_has_found_are_not_sought_again(agent: None, capsys: pytest.CaptureFixture[str]) -> None:
+    run(["check", str(GPS / "mission.toml"), "--flights", "3"])
+    with open_store(STORE) as store:
+        run_id = store.run_ids()[0]
+        ((example, text),) = store.causes(run_id).items()
+        kept = replace(read_record(Causes, text), tried=12345)
+        store.keep_causes(run_id, {example: write_record(kept)})
+    capsys.readouterr()
+    assert run(["explain", f"{run_id}#{example}", "--flights", "3"]) == 0
+    told = capsys.readouterr().out
+    assert "(12345 lines tried in 3 flights of the same mission" in told
+    other = re.findall(r"more missions fail alike: (\d+)", told)[0]
+    assert run(["explain", f"{run_id}#{other}", "--flights", "3"]) == 0
+    assert "(12345 lines tried in 3 flights of one that fails alike" in capsys.readouterr().out
+    assert run(["explain", f"{run_id}#{example}", "--flights", "4"]) == 0
+    assert "12345" not in capsys.readouterr().out

@@ -85,7 +85,7 @@ def test_a_limit_of_a_resource_is_read_off_the_text() -> None:
     path = ROOT / "models/templates/battery/mission.toml"
     for conflict, text in conflicts_of_mutants(path, 12, 2):
         elements = [
-            replace(one, terms=(replace(one.terms[0], arguments=(one.terms[0].arguments[0], 0.0, 0.0)),))
+            replace(one, terms=(replace(one.terms[0], arguments=(one.terms[0].arguments[0], -1e3, -1e3)),))
             if one.place is not None and one.place.text.startswith("new Reservoir") and "Min" in str(one.variables[0])
             else one
             for one in conflict.elements
