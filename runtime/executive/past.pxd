@@ -22,6 +22,9 @@ cdef class Past:
     @cython.locals(t="long long")
     cpdef list outlines(self, long long tick)
 
+    @cython.locals(bench=Workbench, t="long long")
+    cpdef list uses(self, long long tick)
+
     @cython.locals(bench=Workbench, found=dict, o="long long", predicate="long long", t="long long")
     cpdef list _found(self, long long tick)
 
@@ -31,8 +34,14 @@ cdef class Past:
     @cython.locals(bench=Workbench)
     cpdef int keep(self, outlines) except -1
 
-    @cython.locals(bench=Workbench, holds=bint, mark="long long", plan=Plan, t="long long", waiting="long long")
+    @cython.locals(bench=Workbench, holds=bint, mark="long long", t="long long")
     cpdef int put_back(self, one) except -1
+
+    @cython.locals(t="long long")
+    cpdef bint put_back_uses(self, uses) except -1
+
+    @cython.locals(bench=Workbench, holds=bint, plan=Plan, t="long long", waiting="long long")
+    cpdef long long _made(self, one) except? -1
 
     @cython.locals(bench=Workbench, key="long long", line=list, oldest="long long")
     cpdef int _forget_oldest(self, long long t, one) except -1

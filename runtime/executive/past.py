@@ -14,6 +14,7 @@ from runtime.executive.timelines import TimelineState
 from runtime.executive.view import SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
 from runtime.plan.lifecycle import fire
+from runtime.plan.tags import ACTIVE, NONE, RESOURCE_CONSUMES, RESOURCE_PRODUCES
 from runtime.plan.tokens.predicate_hierarchy import first_active, next_active
 from runtime.plan.tokens.tokens import activation, restore_key, return_key
 
@@ -62,6 +63,19 @@ class Past:
         """What is over by `tick` on shared timelines and may be asked for later."""
         return [self._outline(t) for t in self._found(tick)]
 
+    def uses(self, tick: int) -> list[OverToken]:
+        """What has been given to reservoirs and taken from them by `tick`: the levels of today come of it."""
+        bench, kinds = self.bench, self.bench.plan.predicate_resource
+        return [
+            self._outline(t)
+            for t in bench.all_tokens()
+            if kinds[bench.predicate_of(t)] in (RESOURCE_PRODUCES, RESOURCE_CONSUMES)
+            and bench.rows.status[t] == ACTIVE
+            and not bench.is_kept(t)
+            and bench.is_over(t, tick)
+            and -inf < bench.started_at(t)
+        ]
+
     def _found(self, tick: int) -> list[int]:
         """The tokens of `outlines`, by predicate and key."""
         bench = self.bench
@@ -91,8 +105,31 @@ class Past:
 
     def put_back(self, one: OverToken) -> None:
         """Put one token that has left the plan, or never was in it, back as a fact without rules."""
-        bench, plan = self.bench, self.bench.plan
+        bench = self.bench
         mark = bench.mark()
+        t = self._made(one)
+        holds = t >= 0 and bench.stand_alone(t, one.object)
+        if not holds:
+            bench.rewind_to(mark)
+        bench.commit()
+        if holds:
+            return_key(bench.plan)
+            bench.note_kept(t)
+            self._forget_oldest(t, one)
+
+    def put_back_uses(self, uses: Iterable[OverToken]) -> bool:
+        """Put what was given to reservoirs and taken from them back, as facts; False if the plan does not bear it."""
+        for one in uses:
+            t = self._made(one)
+            if t < 0:
+                return False
+            return_key(self.bench.plan)
+            self.bench.note_kept(t)
+        return True
+
+    def _made(self, one: OverToken) -> int:
+        """A fact without rules, with what is known of the token that is over; NONE where that is inconsistent."""
+        bench, plan = self.bench, self.bench.plan
         t = bench.new_token(one.predicate, one.object, True)
         restore_key(plan, t, one.key)
         holds = (
@@ -104,14 +141,8 @@ class Past:
             waiting = plan.stack_length
             activation(plan, t, SPAN_OBSERVATION)
             plan.stack_length = waiting  # its rules have had their say when it was executed
-            holds = fire(plan) and bench.stand_alone(t, one.object)
-        if not holds:
-            bench.rewind_to(mark)
-        bench.commit()
-        if holds:
-            return_key(plan)
-            bench.note_kept(t)
-            self._forget_oldest(t, one)
+            holds = fire(plan)
+        return t if holds else NONE
 
     def _forget_oldest(self, t: int, one: OverToken) -> None:
         """Of too many tokens of a predicate that stay on a timeline, take the oldest away; `t` is the newest."""

@@ -12,19 +12,21 @@ def relax(
     """Take back all decisions about tokens that have not begun before `tick`; goals become open again (T-REX 1.9).
 
     What holds now is fact, observed or not, and stays. With `forget`, what is over is dropped, with what follows from
-    it alone; that it has happened is kept, for rules that look back. Goals that are too late are removed. False if even
-    that is inconsistent.
+    it alone; that it has happened is kept, for rules that look back, and what it gave to reservoirs or took from them.
+    Goals that are too late are removed. False if even that is inconsistent.
     """
     bench.recorder.cut()
     seen = hold_present(bench, timelines)
     if forget:
         present = {token for line in timelines for token in (line.current, seen.get(line.name, NOTHING))}
-        happened = past.outlines(tick)
+        happened, uses = past.outlines(tick), past.uses(tick)
         over = [token for token in bench.all_tokens() if bench.is_over(token, tick) and not bench.is_kept(token)]
         bench.remove([token for token in over if token not in present])
     for token in bench.all_tokens():
         if not bench.is_freed(token) and bench.is_waiting(token, tick):
             bench.cancel(token)
+    if forget and not past.put_back_uses(uses):
+        return False
     stand(bench, timelines, seen, is_every=forget)
     late = []
     for goal in goals:
