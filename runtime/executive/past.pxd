@@ -40,7 +40,7 @@ cdef class Past:
     @cython.locals(t="long long")
     cpdef bint put_back_uses(self, uses) except -1
 
-    @cython.locals(bench=Workbench, holds=bint, plan=Plan, t="long long", waiting="long long")
+    @cython.locals(bench=Workbench, holds=bint, is_active=bint, plan=Plan, t="long long", waiting="long long")
     cpdef long long _made(self, one) except? -1
 
     @cython.locals(bench=Workbench, key="long long", line=list, oldest="long long")

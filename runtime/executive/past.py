@@ -14,8 +14,9 @@ from runtime.executive.timelines import TimelineState
 from runtime.executive.view import SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
 from runtime.plan.lifecycle import fire
-from runtime.plan.tags import ACTIVE, NONE, RESOURCE_CONSUMES, RESOURCE_PRODUCES
-from runtime.plan.tokens.predicate_hierarchy import first_active, next_active
+from runtime.plan.store.links import link_by_key, unlink
+from runtime.plan.tags import ACTIVE, LIST_PREDICATE, NONE, RESOURCE_CONSUMES, RESOURCE_PRODUCES
+from runtime.plan.tokens.predicate_hierarchy import active_head, first_active, next_active
 from runtime.plan.tokens.tokens import activation, restore_key, return_key
 
 _MOST = 64  # of each predicate on each timeline: the plan stays small in long missions
@@ -132,12 +133,16 @@ class Past:
         bench, plan = self.bench, self.bench.plan
         t = bench.new_token(one.predicate, one.object, True)
         restore_key(plan, t, one.key)
+        is_active = bench.rows.status[t] == ACTIVE  # a use of a resource is from the beginning
+        if is_active:
+            unlink(plan.rows, t, LIST_PREDICATE)
+            link_by_key(plan.rows, t, LIST_PREDICATE, active_head(plan, one.predicate))
         holds = (
             bench.fix(bench.start(t), one.start, SPAN_OBSERVATION, t)
             and bench.fix(bench.end(t), one.end, SPAN_OBSERVATION, t)
             and bench.restrict_parameters(t, one.arguments, SPAN_OBSERVATION)
         )
-        if holds:
+        if holds and not is_active:
             waiting = plan.stack_length
             activation(plan, t, SPAN_OBSERVATION)
             plan.stack_length = waiting  # its rules have had their say when it was executed
