@@ -22,7 +22,7 @@ from runtime.build_form import build_form
 from checker.flight import fly_programs
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.pinned import programs_of
+from checker.pinned import pinned
 from checker.sampling.seeds import mission_seed
 from runtime.executive.mission import record_mission
 
@@ -48,8 +48,9 @@ def measure(file: Path, missions: int) -> MissionFigures:
     """Fly missions one after the other; the first one, which is flown once more before, warms up."""
     mission, _ = read_mission(file)
     assert mission is not None
-    agent = load_models(mission).agent
-    programs = programs_of(agent)
+    models = load_models(mission)
+    agent = models.agent
+    programs = pinned(models).programs_of(agent)
     seeds = [mission_seed(mission.check.seed, number) for number in range(missions)]
     fly_programs(agent, programs, seeds[0])
     begun = time.process_time()
@@ -73,8 +74,9 @@ def memory(file: Path) -> list[tuple[int, float]]:
     """Ticks and MiB of a mission that is flown and judged to half its length, and to its end."""
     mission, _ = read_mission(file)
     assert mission is not None
-    agent = load_models(mission).agent
-    programs = programs_of(agent)
+    models = load_models(mission)
+    agent = models.agent
+    programs = pinned(models).programs_of(agent)
     fly_programs(agent, programs, 1, until=1)
     loaded = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     found = []

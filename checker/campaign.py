@@ -228,7 +228,7 @@ class Campaign:
             for fault in findings.faults[:_MOST_PAIRS]:
                 example = by_number[fault.bucket.example]
                 near = _nearest_passing(example, findings)
-                if near is None or example.outcome is None or findings.is_interrupted or findings.is_cut:
+                if near is None or example.outcome is None or not findings.is_whole:
                     found.append(None)
                     continue
                 agent = with_point(self.models.agent, near.point)
@@ -239,7 +239,7 @@ class Campaign:
     def drawn(self, findings: Findings, pairs: Sequence[Pair | None]) -> Drawn | None:
         """The paths that the mission file asks figures of."""
         figures = self.mission.figures
-        if figures is None or findings.is_interrupted or findings.is_cut:
+        if figures is None or not findings.is_whole:
             return None
         agent = self.models.agent
         with Flyer(self.load, agent, self.mission.check.time_limit) as flyer:

@@ -105,6 +105,11 @@ class Findings:
         """Whether a signal ended the run before its time."""
         return self.ending is Ending.SIGNAL
 
+    @property
+    def is_whole(self) -> bool:
+        """Whether neither the run nor the search for causes was ended by a signal."""
+        return not (self.is_interrupted or self.is_cut)
+
     def count(self, verdict: Verdict) -> int:
         """How many missions ended so."""
         return sum(result.verdict is verdict for result in self.results)

@@ -10,9 +10,7 @@ from checker.batch.worker import Fly
 from checker.flight import fly_programs, load_code, load_solver
 from checker.models import ModelSet
 from checker.mutation.variant import Overlay
-from compiler.lower import compile_model
 from compiler.program import Program
-from nddl_lang.analysis import analyse_file
 from nddl_lang.text.read import read_text, real_path
 from runtime.executive.configuration import AgentConfiguration, CodeConfiguration
 from runtime.executive.mission import MissionPrograms
@@ -77,14 +75,3 @@ def _assembled(
             raise UserCodeError(f"{name}: changed while missions were flown", advice=_CHANGED)
     solvers = tuple(default_configuration() if path is None else models.solvers[path] for _, path in reactors)
     return MissionPrograms(tuple(models.programs[model] for model, _ in reactors), solvers, library.constraints, code)
-
-
-def programs_of(agent: AgentConfiguration) -> MissionPrograms:
-    """What `agent` runs, compiled from the files as they are at this moment."""
-    root = Path(agent.root)
-    library = load_library(root, agent.constraints, seconds=agent.constraint_seconds)
-    models = {each.model: analyse_file(root / each.model, callables=library.callables) for each in agent.reactors}
-    compiled = {name: compile_model(each) for name, each in models.items()}
-    programs = tuple(compiled[each.model] for each in agent.reactors)
-    solvers = tuple(load_solver(root, each.solver) for each in agent.reactors)
-    return MissionPrograms(programs, solvers, library.constraints, load_code(root, agent.coded))

@@ -9,7 +9,7 @@ from types import FrameType
 
 import click
 
-from checker.batch.echo import Echo
+from checker.batch.signals import Echo
 from runtime.solver.search import Solver
 from runtime.user.limit import WATCH
 

@@ -20,6 +20,7 @@ import runtime.build_form
 from checker.batch.pool import Batch, Supervisor
 from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
+from checker.batch.signals import FirstSignals
 from checker.batch.worker import Load, Task, error_result
 from runtime.executive.configuration import AgentConfiguration
 
@@ -27,7 +28,6 @@ _LARGEST_CHUNK = 8
 _QUIET = 0.25  # seconds between two looks at the clock
 _TRANSFER = 30.0  # seconds in which the results of a chunk come over
 _DESERTED = 60.0  # seconds in which a worker may come back where there is none
-_ENDING = ("SIGINT", "SIGTERM")
 
 
 class Cluster:
@@ -51,26 +51,15 @@ class Cluster:
         return signals.seen
 
 
-class _Signals:
+class _Signals(FirstSignals):
     """Notes a signal that is to end the batch."""
 
     def __init__(self) -> None:
         self.seen: signal.Signals | None = None
-        self._before: dict[int, Any] = {}
+        super().__init__(self._note)
 
-    def __enter__(self) -> "_Signals":
-        if threading.current_thread() is threading.main_thread():
-            for name in _ENDING:
-                number = getattr(signal, name)
-                self._before[number] = signal.signal(number, self._note)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        for number, before in self._before.items():
-            signal.signal(number, before)
-
-    def _note(self, number: int, _frame: object) -> None:
-        self.seen = signal.Signals(number)
+    def _note(self, number: signal.Signals) -> None:
+        self.seen = self.seen or number
 
 
 class _Round:

@@ -1,13 +1,10 @@
 """A signal while something is sought: it ends what is under way, and what was found before is kept."""
 
 import signal
-import threading
 from collections.abc import Callable
-from types import FrameType, TracebackType
-from typing import Any, TypeVar
+from typing import TypeVar
 
-from checker.batch.echo import Echo
-from checker.batch.process import ENDING
+from checker.batch.signals import FirstSignals
 
 _Found = TypeVar("_Found")
 
@@ -16,27 +13,13 @@ class InterruptedSearch(KeyboardInterrupt):
     """Raised where a signal finds a search."""
 
 
-class Interruption:
-    """Within this, the first Ctrl-C, SIGTERM or hang-up ends a search; the second one does what it always did."""
+class Interruption(FirstSignals):
+    """Within this, the first Ctrl-C, SIGTERM or hang-up ends a search."""
 
     def __init__(self) -> None:
         self.ended_by: signal.Signals | None = None
         self._is_searching = False
-        self._before: dict[int, Any] = {}
-        self._echo = Echo()
-
-    def __enter__(self) -> "Interruption":
-        if threading.current_thread() is threading.main_thread():
-            for number in ENDING:
-                before = signal.getsignal(number)
-                if number != getattr(signal, "SIGHUP", None) or before is not signal.SIG_IGN:  # nohup
-                    self._before[number] = before
-                    signal.signal(number, self._note)
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
-        for number, before in self._before.items():
-            signal.signal(number, before)
+        super().__init__(self._note)
 
     def __call__(self, search: Callable[[], _Found]) -> _Found | None:
         """What a search finds; None where a signal has ended it, or came before."""
@@ -52,14 +35,9 @@ class Interruption:
             self._is_searching = False
         return found
 
-    def _note(self, number: int, _frame: FrameType | None) -> None:
-        if self._echo.is_of(number):
-            return
-        if self.ended_by is not None:
-            signal.signal(number, self._before[number])
-            signal.raise_signal(number)
-            return
-        self.ended_by = signal.Signals(number)
+    def _note(self, number: signal.Signals) -> None:
+        if self.ended_by is None:
+            self.ended_by = number
         if self._is_searching:
             raise InterruptedSearch
 

@@ -8,20 +8,18 @@ content does not.
 import contextlib
 import os
 import signal
-import threading
 import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection, wait
-from types import FrameType
 from typing import Protocol
 
 import runtime.build_form
-from checker.batch.echo import Echo
 from checker.batch.garbage import seldom_collected
-from checker.batch.process import ENDING, SPARE, Worker, WorkerError, unloaded
+from checker.batch.process import SPARE, Worker, WorkerError, unloaded
 from checker.batch.result import MissionResult
+from checker.batch.signals import FirstSignals
 from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result
 from checker.oracle import USER_CODE
 from runtime.executive.configuration import AgentConfiguration
@@ -182,33 +180,15 @@ class _Pool:
 
 @contextlib.contextmanager
 def _signal_pipe() -> Iterator[int]:
-    """A file descriptor from which a signal that ends the batch can be read; the second one does what it always did."""
+    """A file descriptor from which a signal that ends the batch can be read."""
     reading, writing = os.pipe()
-    is_main = threading.current_thread() is threading.main_thread()
-    before = {number: signal.getsignal(number) for number in ENDING}
 
-    echo = Echo()
-    noted: set[int] = set()
+    def note(number: signal.Signals) -> None:
+        os.write(writing, bytes((number,)))
 
-    def note(number: int, _frame: FrameType | None) -> None:
-        if echo.is_of(number):
-            return
-        if number in noted:
-            signal.signal(number, before[number])
-            signal.raise_signal(number)
-        else:
-            noted.add(number)
-            os.write(writing, bytes((number,)))
-
-    if is_main:
-        for number in ENDING:
-            if number != getattr(signal, "SIGHUP", None) or before[number] is not signal.SIG_IGN:  # nohup
-                signal.signal(number, note)
     try:
-        yield reading
+        with FirstSignals(note):
+            yield reading
     finally:
-        if is_main:
-            for number in ENDING:
-                signal.signal(number, before[number])
         os.close(reading)
         os.close(writing)

@@ -12,6 +12,7 @@ from multiprocessing.process import BaseProcess
 
 import runtime.build_form
 from checker.batch.result import MissionResult
+from checker.batch.signals import ENDING
 from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result, reason_of, work
 from checker.oracle import USER_CODE
 from runtime.executive.configuration import AgentConfiguration
@@ -21,7 +22,6 @@ from runtime.user.fault import UserCodeError
 _SAFE_PATH = "PYTHONSAFEPATH"
 _LOOK = 0.25  # seconds from one look at a process to the next
 _START_LIMIT = 120.0  # seconds for a worker to load the models
-ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 
 class WorkerError(Exception):

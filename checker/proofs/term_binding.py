@@ -29,7 +29,6 @@ class TermBinding:
         self.reactor = reactor
         self.tokens: dict[int, TokenName] = {} if own is None else {0: own}
         self.slots: dict[int, VariableName] = {}
-        self.fields: dict[int, VariableName] = {}
         self.last: Number | None = None
 
     def align(self, operands: Sequence[Operand], term: Term) -> bool:

@@ -10,13 +10,13 @@ from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.variant import open_over
 from checker.oracle import Verdict, judge
-from checker.pinned import programs_of
 from checker.proofs.box import Point
 from checker.proofs.certify import Certainty, Certifier
 from checker.proofs.constants import places_of, safe_constant, with_value
 from runtime.executive.outcome import Outcome
 from runtime.executive.record import MissionRecord
 from tests.checker.conditions.campaigns import campaign
+from tests.programs import programs_of
 
 MODELS = Path(__file__).parents[2] / "models"
 # The 10^5 missions of the goal: NDDLC_PROOFS=100000.

@@ -136,17 +136,17 @@ def test_a_second_nddlc_on_the_same_run_is_refused(tmp_path: Path) -> None:
     first = begin(tmp_path, "load_slow", "--missions", "5000")
     wait_for(tmp_path, first)
     second = begin(tmp_path, "load_slow", "--missions", "5000", "--fresh")
-    _, err = second.communicate(timeout=30)
+    _, err = second.communicate(timeout=120)
     assert second.returncode == 2
     assert "another nddlc flies run" in err
     other = begin(tmp_path, "load_slow", "--missions", "6")
-    other.communicate(timeout=30)
+    other.communicate(timeout=120)
     assert other.returncode in (0, 1)
     os.kill(first.pid, signal.SIGTERM)
-    out, _ = first.communicate(timeout=30)
+    out, _ = first.communicate(timeout=120)
     assert first.returncode == 143
     third = begin(tmp_path, "load_slow", "--missions", "5000", "--seconds", "0.2")
-    out, _ = third.communicate(timeout=30)
+    out, _ = third.communicate(timeout=120)
     assert "(time was over)" in out
 
 

@@ -7,12 +7,12 @@ import pytest
 from checker.flight import fly_programs
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.pinned import programs_of
 from checker.proofs.conflict import Finding, confirm
 from checker.proofs.places import ModelText, text_of
 from runtime.executive.outcome import Conflict, ElementKind
 from runtime.executive.rendering import element_text
 from tests.checker.checked import faults_of
+from tests.programs import programs_of
 
 SHARED = """#include "TREX.nddl"
 enum Site { depot, clinic, island }

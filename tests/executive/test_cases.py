@@ -12,11 +12,11 @@ from checker.judge.rendering import disagreement_text
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.oracle import judge
-from checker.pinned import programs_of
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, record_mission, run_mission
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import event_data
+from tests.programs import programs_of
 
 HERE = Path(__file__).parent
 CASES = sorted(path.parent for path in HERE.glob("cases/*/expected.json"))

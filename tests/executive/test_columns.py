@@ -13,7 +13,6 @@ from checker.batch.result import MissionResult, read_result, write_result
 from checker.figures import Figures
 from checker.mission import read_mission
 from checker.oracle import judge
-from checker.pinned import programs_of
 from checker.report.track import track_of
 from runtime.executive.columns import GuardColumns, RunColumns, StoredValues, TokenColumns, ValueColumn
 from runtime.executive.events import EventLog, causes_of, events_on, heads_of, numbered, single_events
@@ -22,6 +21,7 @@ from runtime.executive.outcome import EventKind, Outcome
 from runtime.executive.record import BodyRun, GuardRun, MissionRecord, Value, ValueRange
 from tests.executive.determined_models import random_case
 from tests.executive.flying import fly, simulator
+from tests.programs import programs_of
 
 INL = Path(__file__).resolve().parents[2] / "models/auv/inl/mission.toml"
 

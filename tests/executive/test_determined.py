@@ -9,7 +9,6 @@ import pytest
 
 from checker.judge.judge import judge_mission
 from checker.mission import read_mission
-from checker.pinned import programs_of
 from compiler.determined import code
 from runtime.determined.reactor import DeterminedReactor
 from runtime.executive.agent import Agent
@@ -20,6 +19,7 @@ from runtime.executive.outcome import EventKind
 from runtime.executive.trace import Trace
 from tests.executive.determined_models import Case, random_case, told
 from tests.executive.flying import simulator
+from tests.programs import programs_of
 
 ROOT = Path(__file__).resolve().parents[2]
 MISSIONS = sorted([*(ROOT / "models").rglob("m*.toml"), *(ROOT / "tests").rglob("mission.toml")])

@@ -12,7 +12,6 @@ import pytest
 
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.pinned import programs_of
 from checker.proofs.conflict import Finding, confirm
 from checker.sampling.seeds import mission_seed
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ParameterConfiguration
@@ -20,6 +19,7 @@ from runtime.executive.mission import MissionPrograms, run_mission
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import trace_json
 from tests.executive.flying import fly, lines, planner, simulator
+from tests.programs import programs_of
 
 FOLDER = Path(__file__).resolve().parents[2]
 LAMP = """

@@ -7,7 +7,7 @@ import pytest
 from checker.flight import fly_programs
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.pinned import programs_of
+from tests.programs import programs_of
 
 MODEL = """#include "TREX.nddl"
 class Lamp extends AgentTimeline { predicate Off { } Lamp(Mode m) { super(m, "Off"); } }

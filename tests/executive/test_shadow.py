@@ -7,13 +7,13 @@ import pytest
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.variant import load_over
-from checker.pinned import programs_of
 from nddl_lang.text.read import real_path
 from runtime.determined.publish import row_key
 from runtime.determined.reactor import DeterminedReactor
 from runtime.executive import mission
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.rendering import trace_line
+from tests.programs import programs_of
 
 MODELS = Path(__file__).parents[2] / "models"
 GPS = MODELS / "gps" / "mission.toml"

@@ -8,10 +8,10 @@ import pytest
 
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.pinned import programs_of
 from nddlc.main import run
 from runtime.executive.mission import run_mission
 from runtime.executive.outcome import EventKind, Outcome
+from tests.programs import programs_of
 
 MODELS = Path(__file__).parents[2] / "models"
 FILES = sorted(MODELS.rglob("*.nddl"))

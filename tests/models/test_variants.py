@@ -7,10 +7,10 @@ import pytest
 
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.pinned import programs_of
 from runtime.executive.mission import run_mission
 from runtime.executive.outcome import EventKind, Outcome
 from tests.models.bug_variants import Case, Variant, apply, read_variant
+from tests.programs import programs_of
 
 BUGS = Path(__file__).parents[2] / "models" / "auv" / "bugs"
 VARIANTS = [read_variant(file) for file in sorted(BUGS.glob("*.toml"))]

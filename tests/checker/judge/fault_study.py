@@ -16,12 +16,12 @@ from checker.judge.rendering import disagreement_text
 from checker.judge.values import may_be_equal
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.pinned import programs_of
 from runtime.executive.mission import record_mission
 from runtime.executive.outcome import EventKind
 from tests.checker.judge.faults import Fault, broken, faults
 from tests.checker.judge.missions import GPS, INL, cooking, walking
 from tests.executive.flying import Flown
+from tests.programs import programs_of
 
 FRONT = INL.parents[1] / "front/mission.toml"
 CASES = sorted((Path(__file__).resolve().parents[2] / "executive/cases").glob("*/mission.toml"))

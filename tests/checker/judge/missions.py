@@ -6,10 +6,10 @@ from pathlib import Path
 from checker.judge.judge import judge_mission
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.pinned import programs_of
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
 from runtime.executive.mission import record_mission
 from tests.executive.flying import Flown, flown, planner, simulator
+from tests.programs import programs_of
 
 INL = Path(__file__).resolve().parents[3] / "models/auv/inl/mission.toml"
 GPS = Path(__file__).resolve().parents[3] / "models/gps/mission.toml"

@@ -10,7 +10,6 @@ import pytest
 from checker.judge.judge import judge_mission
 from checker.judge.report import JudgeReport
 from checker.mission import read_mission
-from checker.pinned import programs_of
 from runtime.determined.expand import expand
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
@@ -19,6 +18,7 @@ from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, record_mission
 from runtime.executive.outcome import Outcome
 from runtime.executive.record import MissionRecord, TokenRecord
+from tests.programs import programs_of
 
 
 class Flown(NamedTuple):
