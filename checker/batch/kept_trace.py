@@ -14,8 +14,8 @@ from runtime.executive.outcome import Event
 _NUMBERS = ("indices", "ticks", "rows", "causes")
 
 
-def write_trace(events: EventLog, plain: Callable[[Event], Any]) -> dict[str, Any]:
-    """A trace with runs as JSON can say it; `plain` writes a single event."""
+def write_trace(events: EventLog) -> dict[str, Any]:
+    """A trace with runs as JSON can say it; single events stay as they are."""
     sources: dict[int, int] = {}
     stored: list[StoredObservations] = []
     parts: list[Any] = []
@@ -28,7 +28,7 @@ def write_trace(events: EventLog, plain: Callable[[Event], Any]) -> dict[str, An
                 stored.append(columns)
             parts.append([sources[id(part.columns)], part.first, part.count])
         else:
-            parts.append(plain(part))
+            parts.append(part)
     return {"columns": [_write_columns(each) for each in stored], "parts": parts}
 
 

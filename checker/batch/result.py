@@ -20,8 +20,6 @@ from runtime.executive.events import EventLog
 from runtime.executive.outcome import Draw, OpenGoal, Outcome
 
 _T = TypeVar("_T")
-_JSON = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"))
-_ATOMS = frozenset({str, int, float, bool, type(None)})  # that JSON says as they are
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +84,7 @@ class _Packer(pickle.Pickler):
 
 def write_result(result: MissionResult) -> str:
     """One line of JSON, the same for equal results."""
-    return _JSON.encode(_plain(result, {}))
+    return _json(result)
 
 
 def read_result(text: str) -> MissionResult:
@@ -98,7 +96,7 @@ def read_result(text: str) -> MissionResult:
 
 def write_record(value: object) -> str:
     """A frozen dataclass of others, enums and plain values as a line of JSON."""
-    return _JSON.encode(_plain(value, {}))
+    return _json(value)
 
 
 def read_record(kind: type[_T], text: str) -> _T:
@@ -110,7 +108,7 @@ def read_record(kind: type[_T], text: str) -> _T:
 
 def write_point(point: SamplePoint) -> str:
     """A point as a line of JSON."""
-    return _JSON.encode(_plain(point, {}))
+    return _json(point)
 
 
 def read_point(text: str) -> SamplePoint:
@@ -120,40 +118,33 @@ def read_point(text: str) -> SamplePoint:
     return found
 
 
-def _plain(value: Any, known: dict[int, Any]) -> Any:
-    """A value as JSON can say it: a dataclass as the fields that differ from their defaults, an enum by its value.
+def _json(value: Any) -> str:
+    """Dataclasses as the fields that differ from their defaults, enums by their values, all else as JSON has it."""
+    known: dict[int, Any] = {}  # by identity: conflicts name the same tokens and variables over and over
 
-    `known` has what records came to, by identity: conflicts name the same tokens and variables over and over.
-    """
-    kind: Any = type(value)
-    if kind in _ATOMS:
-        return value
-    if kind is tuple:
-        return [item if type(item) in _ATOMS else _plain(item, known) for item in value]
-    if _is_record(kind):
-        found = known.get(id(value))
-        if found is None:
-            known[id(value)] = found = _plain_fields(kind, value, known)
-        return found
-    if kind is EventLog:
-        return write_trace(value, lambda event: _plain(event, known))
-    if isinstance(value, tuple):
-        return [_plain(item, known) for item in value]
-    return value.value if isinstance(value, Enum) else value
+    def plain(value: Any) -> Any:
+        kind: Any = type(value)
+        if _is_record(kind):
+            found = known.get(id(value))
+            if found is None:
+                known[id(value)] = found = _plain_fields(kind, value)
+            return found
+        if kind is EventLog:
+            return write_trace(value)
+        return value.value
+
+    return json.JSONEncoder(ensure_ascii=False, check_circular=False, separators=(",", ":"), default=plain).encode(
+        value
+    )
 
 
-def _plain_fields(kind: Any, value: Any, known: dict[int, Any]) -> dict[str, Any]:
-    found = {}
+def _plain_fields(kind: Any, value: Any) -> dict[str, Any]:
     names, defaults, read = _fields(kind)
-    for name, default, item in zip(names, defaults, read(value), strict=True):
-        if item is default:
-            continue
-        if type(item) in _ATOMS:
-            if default != item:
-                found[name] = item
-        elif default is MISSING or default is None or default != item:
-            found[name] = _plain(item, known)
-    return found
+    return {
+        name: item
+        for name, default, item in zip(names, defaults, read(value), strict=True)
+        if item is not default and (default is MISSING or default is None or default != item)
+    }
 
 
 def _read(kind: Any, value: Any) -> Any:
