@@ -269,6 +269,26 @@ def test_fmt_leaves_mistakes_as_they_are(tmp_path: Path, capsys: Captured) -> No
     capsys.readouterr()
 
 
+def test_fmt_takes_all_models_below_a_directory(tmp_path: Path, capsys: Captured) -> None:
+    (tmp_path / "deep" / ".hidden").mkdir(parents=True)
+    parts = [tmp_path / "a.nddl", tmp_path / "deep" / "b.nddl"]
+    left = [tmp_path / "deep" / ".hidden" / "c.nddl", tmp_path / "notes.txt"]
+    for path in (*parts, *left):
+        path.write_text(f'#include "b.nddl"\n{UNTIDY}', encoding="utf-8")
+    assert run(["fmt", "--check", str(tmp_path)]) == 1
+    assert run(["fmt", str(tmp_path), str(parts[0])]) == 0
+    assert capsys.readouterr().out == "".join(
+        f"{done} {path}\n" for done in ("would format", "formatted") for path in parts
+    )
+    assert all(TIDY in path.read_text(encoding="utf-8") for path in parts)
+    assert all(UNTIDY in path.read_text(encoding="utf-8") for path in left)
+
+
+def test_fmt_says_where_there_is_nothing_to_format(tmp_path: Path, capsys: Captured) -> None:
+    assert run(["fmt", str(tmp_path)]) == 2
+    assert f"there is no model (.nddl) in `{tmp_path}`" in capsys.readouterr().err
+
+
 def test_fmt_does_not_touch_what_is_no_text(tmp_path: Path, capsys: Captured) -> None:
     path = tmp_path / "m.nddl"
     path.write_bytes(b"int a = 1;\n// caf\xe9\n")
