@@ -10,7 +10,7 @@ from nddl_lang.formatter.format import format_text
 from nddl_lang.syntax.dialect import Dialect, declared_dialect
 from nddl_lang.text.diagnostic import Severity
 from nddl_lang.text.render import render
-from nddlc.inputs import Unusable, chosen_dialect, colours, readable, write_text
+from nddlc.inputs import Unusable, chosen_dialect, colours, models_below, readable, write_text
 
 _STDIN = "-"
 
@@ -24,13 +24,14 @@ _STDIN = "-"
 def command(ctx: click.Context, files: tuple[str, ...], dialect: str | None, only_check: bool, with_diff: bool) -> int:
     """Put models into the one style; `-` reads a text and prints it.
 
+    FILE is a model, or a directory, of which all models (.nddl) are taken.
     Statements with mistakes stay as they are. Ends with 1 if there are such, or if --check or --diff finds
     something to change.
     """
     chosen = chosen_dialect(ctx, dialect)
     dry = only_check or with_diff
     changed, broken = 0, 0
-    for name in files:
+    for name in _named(files):
         before = _read(name)
         formatted = format_text(before, chosen or declared_dialect(before) or Dialect.NDDLC, name)
         mistakes = [each for each in formatted.diagnostics if each.severity is Severity.ERROR]
@@ -49,6 +50,14 @@ def command(ctx: click.Context, files: tuple[str, ...], dialect: str | None, onl
         if name == _STDIN and not dry:
             sys.stdout.buffer.write(formatted.text.encode("utf-8"))
     return int(broken > 0 or (dry and changed > 0))
+
+
+def _named(files: tuple[str, ...]) -> dict[str, None]:
+    """The files, with those below the directories that are named, each once."""
+    found: dict[str, None] = {}
+    for name in files:
+        found.update(dict.fromkeys(map(str, models_below(name)) if Path(name).is_dir() else (name,)))
+    return found
 
 
 def _read(name: str) -> str:

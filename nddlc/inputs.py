@@ -60,15 +60,20 @@ def models_in(names: tuple[str, ...], directories: tuple[str, ...]) -> list[Path
     found: dict[Path, None] = {}
     for name in names:
         if Path(name).is_dir():
-            next(Path(name).iterdir(), None)  # where it cannot be read, nothing would be found, and nothing said
-            below = [path for path in sorted(Path(name).rglob("*.nddl")) if _is_model(path, path.relative_to(name))]
-            if not below:
-                raise Unusable(f"there is no model (.nddl) in `{name}`")
-            roots = roots_among(below, [Path(directory) for directory in directories])
+            roots = roots_among(models_below(name), [Path(directory) for directory in directories])
             found.update(dict.fromkeys(roots))
         else:
             found.update(dict.fromkeys(readable((name,), directories)))
     return list(found)
+
+
+def models_below(directory: str) -> list[Path]:
+    """All models below a directory; complains where there is none."""
+    next(Path(directory).iterdir(), None)  # where it cannot be read, nothing would be found, and nothing said
+    below = [path for path in sorted(Path(directory).rglob("*.nddl")) if _is_model(path, path.relative_to(directory))]
+    if not below:
+        raise Unusable(f"there is no model (.nddl) in `{directory}`")
+    return below
 
 
 def parts_in(names: tuple[str, ...], models: list[Path], directories: tuple[str, ...]) -> frozenset[Path]:

@@ -242,7 +242,7 @@ class Recorder:
         return not [i for i in given if not engine.is_decided(rows.cells[i])]
 
     def _child(self, t: int, parent: int, key: int) -> int:
-        if t >= 0 and self.rows.parent[t] == parent:
+        if t >= 0 and self.rows.parent[t] == parent and self.rows.status[t] != FREED:
             return int(self.rows.key[t])
         return self.gone.get((key, t), NOBODY)
 

@@ -228,54 +228,6 @@ def test_an_unknown_code_is_refused(capsys: Captured) -> None:
     assert "there is no code `NDDL999`" in capsys.readouterr().err
 
 
-UNTIDY = "int   a=1 ;\nint b = 2;   // two\n"
-TIDY = "int a = 1;\nint b = 2;  // two\n"
-
-
-def test_fmt_puts_a_file_into_the_style(tmp_path: Path, capsys: Captured) -> None:
-    path = tmp_path / "m.nddl"
-    path.write_text(UNTIDY, encoding="utf-8")
-    path.chmod(0o640)
-    assert run(["fmt", str(path)]) == 0
-    assert capsys.readouterr().out == f"formatted {path}\n"
-    assert path.read_text(encoding="utf-8") == TIDY
-    assert path.stat().st_mode & 0o777 == 0o640
-    assert list(tmp_path.iterdir()) == [path]
-    assert run(["fmt", str(path)]) == 0
-    assert capsys.readouterr().out == ""
-
-
-@pytest.mark.parametrize("option", ["--check", "--diff"])
-def test_fmt_can_tell_without_writing(option: str, tmp_path: Path, capsys: Captured) -> None:
-    path = tmp_path / "m.nddl"
-    path.write_text(UNTIDY, encoding="utf-8")
-    assert run(["fmt", option, str(path)]) == 1
-    assert str(path) in capsys.readouterr().out
-    assert path.read_text(encoding="utf-8") == UNTIDY
-
-
-def test_fmt_reads_standard_input() -> None:
-    told = subprocess.run(
-        [sys.executable, "-m", "nddlc.main", "fmt", "-"], input=UNTIDY, capture_output=True, text=True, check=True
-    )
-    assert told.stdout == TIDY
-
-
-def test_fmt_leaves_mistakes_as_they_are(tmp_path: Path, capsys: Captured) -> None:
-    path = tmp_path / "m.nddl"
-    path.write_text("int   a  = = 1;\nint   b=2;\n", encoding="utf-8")
-    assert run(["fmt", str(path)]) == 1
-    assert path.read_text(encoding="utf-8") == "int   a  = = 1;\nint b = 2;\n"
-    capsys.readouterr()
-
-
-def test_fmt_does_not_touch_what_is_no_text(tmp_path: Path, capsys: Captured) -> None:
-    path = tmp_path / "m.nddl"
-    path.write_bytes(b"int a = 1;\n// caf\xe9\n")
-    assert run(["fmt", str(path)]) == 2
-    assert "is not UTF-8 text (line 2)" in capsys.readouterr().err
-
-
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
 @pytest.mark.parametrize("words", [["load"], ["plan"], ["lint"], ["plan", "--json"]])
 def test_a_full_disk_is_no_bug_of_nddlc(words: list[str], lamp: str) -> None:

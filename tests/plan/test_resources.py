@@ -7,7 +7,7 @@ import pytest
 
 from runtime.plan.database import PlanDatabase
 from runtime.plan.resources.envelope import Envelope
-from tests.plan.models import loaded, token
+from tests.plan.models import loaded, prepared, token
 
 
 def consistent(text: str) -> bool:
@@ -100,6 +100,34 @@ def test_the_order_of_uses_may_exceed_a_reservoir_for_certain() -> None:
     """
     assert consistent(text)
     assert not consistent(text + "goal(r.consume c); c.quantity = 3.0; c.time = [0 10]; c.time <= p.time;")
+
+
+class Asked:
+    """Relief that never comes; whether somebody would have to give (1) or to take (-1) is kept."""
+
+    def __init__(self) -> None:
+        self.signs: list[int] = []
+
+    def may_come(self, o: int, sign: int) -> bool:
+        self.signs.append(sign)
+        return False
+
+
+@pytest.mark.parametrize(
+    ("level", "gives", "takes", "sign"), [(0, "produce", "consume", 1), (10, "consume", "produce", -1)]
+)
+def test_relief_is_asked_for_on_the_side_that_is_short(level: int, gives: str, takes: str, sign: int) -> None:
+    database = prepared(f"""
+    Reservoir r = new Reservoir({level}.0, 0.0, 10.0);
+    close();
+    goal(r.{gives} p); p.quantity = 6.0; p.time = [0 10];
+    goal(r.{takes} c); c.quantity = 6.0; c.time = [0 10]; c.time <= p.time;
+    goal(r.{gives} late); late.quantity = 9.0; late.time = [8 20];
+    goal(r.{takes} d); d.quantity = 4.0; d.time = 5;
+    """)
+    database.plan.resources.relief = asked = Asked()
+    assert database.run_script() is None and not database.is_consistent
+    assert asked.signs[-1] == sign
 
 
 def test_a_grounded_profile_looks_at_the_earliest_schedule() -> None:

@@ -191,7 +191,7 @@ class Resources:
                     is_tight = is_tight and self.profile.overload() != 0
                     if not by_order and not is_tight:
                         continue
-                if self.relief is not None and self._may_wait(o, envelope.is_low if by_order else NONE):
+                if self.relief is not None and self._may_wait(o, 1 - envelope.is_low if by_order else NONE):
                     continue
                 self.changed[o] = 1
                 return self.refuse(o, level, envelope if by_order else None)
