@@ -50,7 +50,7 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
                 far = _DEAF  # it is asked for nothing
         for site in sites:
             is_spoken = any(site.holds(site.file, place.line) for place in asked)
-            source = Suspicion.CONFLICT if is_spoken else Suspicion.TRACE
+            source = Suspicion.CONFLICT if is_spoken or table == "property" else Suspicion.TRACE
             found.append(Candidate(site, _SPOKEN if is_spoken else far, source))
     return sorted(found, key=lambda one: one.far)
 
