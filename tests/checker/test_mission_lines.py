@@ -140,3 +140,15 @@ def test_the_line_of_a_broken_promise_is_a_cause_though_models_can_be_changed(
     (fault,) = faults_of(tmp_path, capsys, files)
     told = {(one["file"], one["text"]) for one in fault["causes"]["ranked"]}
     assert {("keeper.nddl", "duration == 8;"), ("mission.toml", 'where = "duration <= 4"')} <= told
+
+
+def test_what_a_goal_asks_for_is_named_where_the_planner_found_no_place_for_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pilot = PLANNER.replace("duration <= 60;", "open.duration == gate; open.end == end; duration <= 60;")
+    mission = TWO.replace("lookahead = 0", "lookahead = 1").replace("gate = 2", "gate = 500")
+    files = {"lock.nddl": SHARED, "pilot.nddl": pilot, "mission.toml": mission}
+    files["keeper.nddl"] = KEEPER.replace("duration == 8", "duration == gate")
+    (fault,) = faults_of(tmp_path, capsys, files)
+    told = [(one["file"], one["change"]["old"], one["change"]["new"]) for one in fault["causes"]["ranked"]]
+    assert told[0] == ("mission.toml", "500", "50")
