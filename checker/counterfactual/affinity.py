@@ -37,6 +37,7 @@ class Affinity:
         self._named = named
         self._company: dict[str, Counter[str]] = defaultdict(Counter)
         self._texts = Counter(_plain(site.text) for site in sites)
+        self._in_rule = Counter((site.file, site.scope, _plain(site.text)) for site in sites if site.rule)
         self._tokens: dict[tuple[str, tuple[int, int], str], str] = {}  # what the label of a token in a rule stands for
         for site in sites:
             for predicate, label in _LABELLED.findall(site.text):
@@ -70,14 +71,22 @@ class Affinity:
         return sum(any(_is_kin(one, other) for other in there) for one in telling)
 
     def has_twin(self, site: EditSite) -> bool:
-        """Whether the line is written the same elsewhere."""
-        return self._texts[_plain(site.text)] > 1
+        """Whether the line is written the same in another rule."""
+        return self._elsewhere(site, _plain(site.text)) > (not site.rule)
+
+    def is_repeated(self, site: EditSite) -> bool:
+        """Whether the rule has the line twice: what both branches of a condition say needs no condition."""
+        return self._in_rule[site.file, site.scope, _plain(site.text)] > 1
 
     def makes_twin(self, edit: SmallEdit, site: EditSite) -> bool:
-        """Whether the line is then written as another line is."""
-        first, last = edit.begin - site.begin, edit.end - site.begin
-        is_inside = 0 <= first <= last <= len(site.text) and edit.new.strip()
-        return bool(is_inside) and self._texts[_plain(site.text[:first] + edit.new + site.text[last:])] > 0
+        """Whether the line is then written as a line of another rule is."""
+        text = _after(edit, site)
+        return bool(text) and self._elsewhere(site, text) > 0
+
+    def repeats(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether its rule then has the line twice."""
+        text = _after(edit, site)
+        return bool(text) and self._in_rule[site.file, site.scope, text] > 0
 
     def sign_of(self, edit: SmallEdit, site: EditSite) -> str:
         """The comparison that a constant's name asks for, such as `<=` before `LEG_MAX`; empty where none does."""
@@ -89,11 +98,21 @@ class Affinity:
                 signs.append("<=" if bool(parts & _MOST) is is_after else ">=")
         return signs[0] if len(set(signs)) == 1 else ""
 
+    def _elsewhere(self, site: EditSite, text: str) -> int:
+        return self._texts[text] - self._in_rule[site.file, site.scope, text]
+
     def _words(self, site: EditSite) -> set[str]:
         """What a line is about: its words but for constants and words of the language, and the tokens that it names."""
         words = set(WORD.findall(site.text)) - _COMMON
         tokens = {found for word in words if (found := self._tokens.get((site.file, site.scope, word)))}
         return {word for word in words if word not in self._named} | tokens
+
+
+def _after(edit: SmallEdit, site: EditSite) -> str:
+    """A line as it is after an edit; empty where nothing is left of it, or the edit is of what it leads to."""
+    first, last = edit.begin - site.begin, edit.end - site.begin
+    is_inside = 0 <= first <= last <= len(site.text) and edit.new.strip()
+    return _plain(site.text[:first] + edit.new + site.text[last:]) if is_inside else ""
 
 
 def _plain(text: str) -> str:

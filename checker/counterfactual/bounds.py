@@ -14,6 +14,7 @@ _WORD = re.compile(r"[A-Za-z_]\w*")
 _COMPARED = re.compile(r"([^<>=!&|?]+)(<=|<|>=|>)([^<>=!&|?]+);", re.DOTALL)
 _RESERVOIR = re.compile(r"\bnew\s+Reservoir\s*\(")
 _LEAST, _MOST = 1, 2  # of the arguments of a reservoir
+_LEVELS = re.compile(r"\bnew\s+Reservoir\s*\(\s*(-?[\d.]+)\s*,\s*(-?[\d.]+)\s*,\s*(-?[\d.]+)\s*\)")
 
 
 class Directions:
@@ -40,6 +41,20 @@ class Directions:
         if site.named:
             return self._of.get(site.named, 0) or self._demands.of(site.named)
         return _direction(site.text, at) or self._demands.at(site, at)
+
+
+def is_put_in_order(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether only after an edit the level of a reservoir at first is between the least and the most."""
+    first, last = edit.begin - site.begin, edit.end - site.begin
+    return not _is_in_order(site.text) and _is_in_order(site.text[:first] + edit.new + site.text[last:])
+
+
+def _is_in_order(text: str) -> bool:
+    found = _LEVELS.search(text)
+    if found is None:
+        return False
+    level, least, most = map(float, found.groups())
+    return least <= level <= most
 
 
 def _direction(text: str, at: int) -> int:

@@ -52,6 +52,7 @@ _DURATION = "duration"
 # Relations that leave the end of the origin free, where nothing says when the target begins.
 _FREE = ("any", "contains", "starts", "met_by", "after", "meets", "before")
 _RESOURCES = ("Reservoir", "Reusable", "CBReusable", "Unary")
+_EVENTS = "Reservoir"  # whose tokens have one time
 _MOST_BESIDE = 12  # lines that speak of a variable which still says that they hang together
 _PASSING = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==\s*([A-Za-z_][\w.]*)\s*;")
 _CROWD = 0.05  # what each further line that bears on a variable adds to the way through it
@@ -254,6 +255,7 @@ class _Links:
         steps = list(flat(rule.body))
         children = {0: rule.predicate} | {step.slot: step.predicate for step in steps if isinstance(step, Child)}
         marked = {slot: f"{predicate}#{slot}" for slot, predicate in children.items()}
+        events = {slot for slot, predicate in children.items() if self._is_event(predicate)}
         self._parameters |= {marked[slot]: self._parameters.get(name, []) for slot, name in children.items()}
         for step in steps:
             if isinstance(step, NewVariable) and step.name is not None:
@@ -263,8 +265,11 @@ class _Links:
                     declared["token", marked[step.slot], name] = (step.span, f"{step.label or step.predicate}.{name}")
             speaks = step.copy_of is not None if isinstance(step, NewVariable) else not isinstance(step, Child)
             if speaks:
+                times = ("token", marked[0], _TIMES)
+                is_event = any(("token", marked[one], _TIMES) in self._keys(step, scope, marked) for one in events)
                 for key in self._keys(step, scope, marked):
-                    lines[key].add(step.span.line)
+                    if not (is_event and key == times):  # when an event comes leaves the end free
+                        lines[key].add(step.span.line)
         for name in self._parameters[marked[0]]:
             declared["token", marked[0], name] = (rule.span, name)
         for key, (span, name) in declared.items():
@@ -350,6 +355,11 @@ class _Links:
                     yield ("token", each.name, _TIMES)
                     yield from (("token", each.name, parameter.name) for parameter in each.parameters)
             owner = self._classes[owner.base] if owner.base is not None else None
+
+    def _is_event(self, predicate: str) -> bool:
+        """Whether a predicate is of a resource's events, which have one time."""
+        owner = self._classes.get(predicate.rpartition(".")[0])
+        return owner is not None and owner.native == _EVENTS
 
     def _predicates_of(self, owner: str) -> Iterator[PredicateCode]:
         return (each for each in self._program.predicates if each.class_name == owner)

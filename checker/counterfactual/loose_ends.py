@@ -53,6 +53,12 @@ def _unread(sites: Sequence[EditSite], near: dict[EditSite, Candidate], usage: U
             continue
         heads = [one for one in near.values() if one.site.is_rule]
         heads = [one for one in heads if one.site.file == constant.file] or heads
+        heads += [
+            Candidate(one, _UNPLACED, Suspicion.DEPENDENCE)
+            for one in sites
+            if one.is_rule and one.file == constant.file and one not in near
+            if usage.affinity.shared(constant.named, one, sites)
+        ]
         named = {one: usage.affinity.shared(constant.named, one.site, sites) for one in heads}
         most = max(named.values(), default=0)
         heads = sorted((one for one in heads if named[one] == most), key=lambda one: one.far)

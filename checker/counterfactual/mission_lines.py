@@ -8,6 +8,7 @@ from checker.causes import failed_by
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.mission import Mission
 from checker.mutation.mission_edits import mission_sites
+from compiler.program import DomainConstant
 from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.events import single_events
 from runtime.executive.messages import Arguments
@@ -50,7 +51,7 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
                 far = _DEAF  # it is asked for nothing
         for site in sites:
             is_spoken = any(site.holds(site.file, place.line) for place in asked)
-            source = Suspicion.CONFLICT if is_spoken else Suspicion.TRACE
+            source = Suspicion.CONFLICT if is_spoken or table == "property" else Suspicion.TRACE
             found.append(Candidate(site, _SPOKEN if is_spoken else far, source))
     return sorted(found, key=lambda one: one.far)
 
@@ -69,5 +70,13 @@ def _due(mission: Mission, outcome: Outcome) -> int:
 def _is_asked(goal: GoalConfiguration, timeline: str, predicate: str, arguments: Arguments) -> bool:
     """Whether a goal may be what was asked for."""
     asked = dict(arguments)
-    same = all(asked.get(name, value) == value for name, value in goal.parameters)
+    same = all(_plain(asked.get(name, value)) == value for name, value in goal.parameters)
     return (goal.timeline, goal.predicate) == (timeline, predicate) and same
+
+
+def _plain(value: object) -> object:
+    """The one value of a domain, which is what a goal has that the planner gave up; anything else as it is."""
+    if not isinstance(value, DomainConstant):
+        return value
+    values = tuple(dict.fromkeys(value.interval if value.interval is not None else value.values or ()))
+    return values[0] if len(values) == 1 else None

@@ -11,7 +11,7 @@ from collections.abc import Container, Sequence
 from dataclasses import dataclass
 
 from checker.counterfactual.affinity import WORD, Affinity
-from checker.counterfactual.bounds import Directions
+from checker.counterfactual.bounds import Directions, is_put_in_order
 from checker.counterfactual.mentions import Mentions, is_doubled
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
 
@@ -67,6 +67,8 @@ _COMPARISONS = {
 _SIGNED = {"time sum": {"+": 4.0, "-": 1.0}, "sum": {"+": 2.0, "-": 1.0}, "number": {}}
 _MENTION, _ALIKE, _DOUBLED = 2.0, 1.5, 0.7  # odds that what lacks a mention is meant, or the same name on both sides
 _WISHED = 5.5  # of another wish: it is the user's
+_PROMISED = 4.5  # of another property: what it promises less always keeps
+_AGREES = 1.5  # odds that both sides of `==` are of one type
 _VALUE = 1.7  # of another value: few lines have one, so their number says little
 _CASE = 1.0  # odds that no two conditions of a rule ask for the same value
 _UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
@@ -112,8 +114,12 @@ class Usage:
         return edit.old in self.named and edit.old not in self.sampled and self.counts[edit.old] == 1
 
     def twins(self, edit: SmallEdit, site: EditSite) -> int:
-        """1 for a change after which a line is written as another is, less 1 for a line that is so already."""
-        return self.affinity.makes_twin(edit, site) - self.affinity.has_twin(site)
+        """1 for a change after which a line is written as one of another rule, less 1 for a line that is so already.
+
+        The other way round within a rule.
+        """
+        own = self.affinity.is_repeated(site) - self.affinity.repeats(edit, site)
+        return self.affinity.makes_twin(edit, site) - self.affinity.has_twin(site) + own
 
     def fitness(self, edit: SmallEdit, site: EditSite) -> float:
         """How much better a name fits into a line than the old one: by what lacks a mention, and by likeness."""
@@ -121,6 +127,7 @@ class Usage:
             return _UNMEANT
         weight = _MENTION if edit.kind is EditKind.NAME else 0.5 * _MENTION
         gain = weight * self.mentions.gain(edit, site)
+        gain += _AGREES * ((edit.begin, edit.new) in site.agreeing)
         return gain + _ALIKE * self.mentions.likeness(edit, site) + _DOUBLED * is_doubled(edit, site)
 
     def odds(self, edit: SmallEdit, site: EditSite) -> float:
@@ -184,9 +191,14 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return 1.0 + _UNUSUAL * usage.odds(edit, site)
         case EditKind.LIMIT:
             belongs = _KIN * usage.gain(edit, site) - _LAST_USE * usage.strands(edit)
+            belongs += _AGREES * ((edit.begin, edit.new) in site.agreeing)
             return 1.5 - _IDLE * usage.is_swapped(edit) - belongs
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
             return 1.0 + _OCTAVE * _octaves(edit) + _DIGIT * (_digits(edit.new) - _digits(edit.old))
+        case EditKind.ARGUMENTS if is_put_in_order(edit, site):
+            return 0.0
+        case EditKind.PROMISE:
+            return _PROMISED
         case EditKind.MISSION if edit.old == "0":
             return 0.0  # a reactor that is asked for nothing
         case EditKind.GOAL:
@@ -217,16 +229,20 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     match edit.kind:
         case EditKind.MISSION:
             return -1.0 if edit.old == "0" else None  # tried last
-        case EditKind.GOAL:
+        case EditKind.GOAL | EditKind.PROMISE:
             return None
         case EditKind.LIMIT if usage.is_swapped(edit):
             return -1.0
+        case EditKind.LIMIT if (edit.begin, edit.new) in site.agreeing:
+            return _KIN_SOON - 0.1 * usage.gain(edit, site)
         case EditKind.LIMIT:
             return _KIN_SOON if usage.gain(edit, site) > 0.0 and not usage.strands(edit) else _LATE
         case EditKind.SIGN if edit.new not in _SIGNED["sum"]:
             return 0.0  # few write a number below zero
         case EditKind.SIGN:
             return 0.5 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
+        case EditKind.ARGUMENTS if is_put_in_order(edit, site):
+            return _KIN_SOON
         case EditKind.ARGUMENTS | EditKind.OPERATOR:
             return 0.5 + _LATER * usage.passing
         case EditKind.NAME:
@@ -278,7 +294,11 @@ def follow_ups(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]
         if _is_apart(other, edit) or _direction(other) == _direction(edit)
     ]
     wanted = sorted(one for one in smaller if one[0] < mine)
-    return [other for _, _, other in wanted[:_MOST_FOLLOW_UPS]]
+    kinds: dict[EditKind, SmallEdit] = {}
+    for _, _, other in wanted:
+        kinds.setdefault(other.kind, other)
+    each = list(kinds.values()) if edit.kind in DROPPED else [other for _, _, other in wanted]
+    return each[:_MOST_FOLLOW_UPS]
 
 
 def _is_apart(one: SmallEdit, other: SmallEdit) -> bool:

@@ -27,6 +27,7 @@ from nddl_lang.syntax.nodes import (
     IfStatement,
     Instance,
     IntLiteral,
+    NewExpr,
     PathExpr,
     PredicateDecl,
     Relation,
@@ -72,12 +73,13 @@ class EditKind(StrEnum):
     PREDICATE = "predicate"  # of a child
     MISSION = "mission file"
     GOAL = "goal"  # what a goal asks for
+    PROMISE = "property"  # what a property of the mission promises
     DROPPED_CONSTRAINT = "dropped constraint"
     DROPPED_BRANCH = "dropped branch"
     OPERATOR = "operator"  # a product for a sum
 
 
-OUTSIDE = (EditKind.MISSION, EditKind.GOAL)  # of any model
+OUTSIDE = (EditKind.MISSION, EditKind.GOAL, EditKind.PROMISE)  # of any model
 DROPPED = (EditKind.DROPPED_CONSTRAINT, EditKind.DROPPED_BRANCH)
 
 
@@ -100,7 +102,8 @@ class EditSite:
 
     A branch has the lines of its condition. `scope` are the lines of the whole rule. `named` is the global variable
     that is set here, a number if `is_number`; `is_rule`: it is the head of a rule, for which something may be missing.
-    `begin` is its offset. `coded` is the constraint of the project's own that it calls, which is Python.
+    `begin` is its offset. `agreeing` edits, each by its offset and what it writes, give both sides of `==` one type.
+    `coded` is the constraint of the project's own that it calls, which is Python.
     """
 
     file: str
@@ -116,6 +119,7 @@ class EditSite:
     begin: int = 0
     is_number: bool = False
     coded: str = ""
+    agreeing: frozenset[tuple[int, str]] = frozenset()
 
     def holds(self, file: str, line: int) -> bool:
         """Whether a place is one of its lines."""
@@ -148,6 +152,7 @@ class _Reader:
 
     def __init__(self, loaded: LoadedModules, names: dict[str, str]) -> None:
         self._files = {source: str(real_path(path)) for source, path in loaded.paths.items()}
+        self._kinds = names
         self._limits = sorted(name for name, kind in names.items() if kind in _NUMBERS)
         self._scopes = Scopes(loaded.module.statements, self._limits)
 
@@ -229,7 +234,27 @@ class _Reader:
             begin=node.span.begin,
             is_number=named in self._limits,
             coded=node.name.name if isinstance(node, CallConstraint) and node.name.name not in CONSTRAINTS else "",
+            agreeing=self._agreeing(node, names, edits),
         )
+
+    def _agreeing(self, node: Any, names: LineScope, edits: Iterable[SmallEdit]) -> frozenset[tuple[int, str]]:
+        """The names that would be of the type of the other side of `==`, where the one that stands there is not."""
+        expr = node.expression if isinstance(node, ExprConstraint) else None
+        if not (isinstance(expr, BinaryExpr) and expr.op == "=="):
+            return frozenset()
+        left, right = (self._kind_of(side.span.text, names) for side in (expr.left, expr.right))
+        if not left or not right or left == right:
+            return frozenset()
+        wanted = {expr.left.span.begin: right, expr.right.span.begin: left}
+        return frozenset(
+            (edit.begin, edit.new)
+            for edit in edits
+            if edit.kind in (EditKind.NAME, EditKind.LIMIT) and wanted.get(edit.begin) == self._kind_of(edit.new, names)
+        )
+
+    def _kind_of(self, text: str, names: LineScope) -> str:
+        """The type of a variable or constant as it is written; empty where it is neither."""
+        return names.type_of(tuple(text.split("."))) or self._kinds.get(text, "")
 
     def _dropped(self, span: Span) -> SmallEdit:
         return self._edit(EditKind.DROPPED_BRANCH, span, _blank(span.text))
@@ -308,6 +333,9 @@ class _Reader:
                 yield from _swapped(arguments)
             case CallExpr(arguments=arguments):
                 yield from _swapped(arguments)
+            case NewExpr(arguments=arguments):
+                yield from _swapped(arguments)
+                yield from _swapped(arguments[1:])
             case _:
                 pass
 

@@ -4,6 +4,7 @@ What is drawn is the world's: it is not changed. What else a goal may ask for is
 the other truth value, or a number half or a tenth as large.
 """
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -17,6 +18,7 @@ from runtime.executive.configuration import AgentConfiguration
 
 _TIMES = ("start", "end", "duration")
 _PARAMETERS = "parameters"
+_NUMBER = re.compile(r"(?<![\w.])\d+(\.\d+)?")
 _LONGER = 10  # times as many ticks, of a property
 
 
@@ -36,8 +38,12 @@ def mission_sites(mission: Mission) -> dict[tuple[str, int], list[EditSite]]:
             found["goal", number] = list(_sites(text, ("goal", number), dict.fromkeys(_TIMES, anytime)))
             found["asked", number] = list(_asked(mission, number))
         for number, kept in enumerate(mission.agent.properties):
-            limits = {"by": final if kept.by is not None else None, "ticks": min(_LONGER * kept.ticks, final) or None}
-            found["property", number] = list(_sites(text, ("property", number), limits))
+            limits: dict[str, object] = {
+                "by": final if kept.by is not None else None,
+                "ticks": min(_LONGER * kept.ticks, final) or None,
+            }
+            sites = list(_sites(text, ("property", number), limits))
+            found["property", number] = [*sites, *_promised(text, ("property", number))]
     return found
 
 
@@ -56,7 +62,22 @@ def _sites(text: MissionText, table: tuple[str, int], values: Mapping[str, objec
     for key, value in values.items():
         path = (*table, key)
         if value is not None and path in text.places:
-            yield _site(text, path, EditKind.MISSION, [str(value)])
+            kind = EditKind.PROMISE if table[0] == "property" else EditKind.MISSION
+            yield _site(text, path, kind, [str(value)])
+
+
+def _promised(text: MissionText, table: tuple[str, int]) -> Iterator[EditSite]:
+    """The level that a resource keeps within, and the first number of a condition."""
+    if (level := (*table, "level")) in text.places:
+        yield _site(text, level, EditKind.PROMISE, ["[-inf, inf]"])
+    if (where := (*table, "where")) in text.places:
+        said = text.value_span(where).text
+        number = _NUMBER.search(said)
+        if number is not None:
+            others = [f"{float(number.group()) * factor:g}" for factor in (2.0, 0.5, 10.0, 0.1)]
+            yield _site(
+                text, where, EditKind.PROMISE, [said[: number.start()] + one + said[number.end() :] for one in others]
+            )
 
 
 def _asked(mission: Mission, number: int) -> Iterator[EditSite]:

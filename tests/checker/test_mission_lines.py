@@ -115,3 +115,40 @@ def test_a_reactor_that_takes_no_requests_is_named(tmp_path: Path, capsys: pytes
     told = [(one["file"], one["text"], one["claim"]) for one in fault["causes"]["ranked"]]
     assert told[0] == ("mission.toml", "lookahead = 0", "mends")
     assert faults_of(tmp_path, capsys, files | {"mission.toml": TWO.replace("lookahead = 0", "lookahead = 1")}) == []
+
+
+def test_what_a_property_promises_may_be_too_much(tmp_path: Path) -> None:
+    (tmp_path / "lock.nddl").write_text(MODEL)
+    path = tmp_path / "mission.toml"
+    promise = '[[property]]\nname = "brief"\nkind = "always"\ntimeline = "lock"\npredicate = "Warm"\n'
+    path.write_text(MISSION.replace("[check]", promise + 'where = "duration <= 20"\n[check]'))
+    mission, _ = read_mission(path)
+    assert mission is not None
+    (site,) = mission_sites(mission)["property", 0]
+    assert [edit.new for edit in site.edits] == [f'"duration <= {n}"' for n in (40, 10, 200, 2)]
+    assert {edit.kind for edit in site.edits} == {EditKind.PROMISE}
+
+
+def test_the_line_of_a_broken_promise_is_a_cause_though_models_can_be_changed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    promise = '[[property]]\nname = "brief"\nkind = "always"\ntimeline = "lock"\npredicate = "Open"\n'
+    mission = TWO.replace("lookahead = 0", "lookahead = 1").replace(
+        "[check]", promise + 'where = "duration <= 4"\n[check]'
+    )
+    files = {"lock.nddl": SHARED, "pilot.nddl": PLANNER, "keeper.nddl": KEEPER, "mission.toml": mission}
+    (fault,) = faults_of(tmp_path, capsys, files)
+    told = {(one["file"], one["text"]) for one in fault["causes"]["ranked"]}
+    assert {("keeper.nddl", "duration == 8;"), ("mission.toml", 'where = "duration <= 4"')} <= told
+
+
+def test_what_a_goal_asks_for_is_named_where_the_planner_found_no_place_for_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pilot = PLANNER.replace("duration <= 60;", "open.duration == gate; open.end == end; duration <= 60;")
+    mission = TWO.replace("lookahead = 0", "lookahead = 1").replace("gate = 2", "gate = 500")
+    files = {"lock.nddl": SHARED, "pilot.nddl": pilot, "mission.toml": mission}
+    files["keeper.nddl"] = KEEPER.replace("duration == 8", "duration == gate")
+    (fault,) = faults_of(tmp_path, capsys, files)
+    told = [(one["file"], one["change"]["old"], one["change"]["new"]) for one in fault["causes"]["ranked"]]
+    assert told[0] == ("mission.toml", "500", "50")

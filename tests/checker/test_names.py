@@ -133,3 +133,65 @@ def test_a_looser_limit_is_tried_before_a_tighter_one(
     usage = usage_of(sites)
     soon, late = (delay_of(*edit(sites, text, old, new), usage) for new in (looser, tighter))
     assert soon is not None and late is not None and soon < late
+
+
+def test_a_name_of_the_type_of_the_other_side_is_likelier_than_one_of_another(tmp_path: Path) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_text(
+        """int CARS = 3;
+float LENGTH = 80.0;
+class Ferry extends Timeline { predicate Load { int cars; } }
+class Quay extends Timeline { predicate Trip { float miles; int wanted; float tons; } }
+Quay::Trip {
+    contains(Ferry.Load load);
+    load.cars == miles;
+}
+"""
+    )
+    found = sites_of(load_graph(path, ()))
+    usage = usage_of(found)
+    whole, split = (edit(found, "load.cars == miles;", "miles", new) for new in ("wanted", "tons"))
+    assert cost_of(*whole, usage) < cost_of(*split, usage)
+    assert (delay_of(*whole, usage) or 0.0) < (delay_of(*split, usage) or 0.0)
+
+
+def test_what_both_branches_say_is_hardly_meant(tmp_path: Path) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_text(
+        """enum Gear { low, middle, high }
+class Car extends Timeline { predicate Go { Gear gear; } }
+class Job extends Timeline { predicate Trip { bool heavy; } }
+Job::Trip {
+    contains(Car.Go go);
+    contains(Car.Go back);
+    if (heavy) {
+        go.gear == Gear.low;
+        back.gear == Gear.low;
+    } else {
+        go.gear == Gear.low;
+        back.gear == Gear.middle;
+    }
+}
+"""
+    )
+    found = sites_of(load_graph(path, ()))
+    usage = usage_of(found)
+    twice = edit(found, "go.gear == Gear.low;", "Gear.low", "high")
+    once = edit(found, "back.gear == Gear.low;", "Gear.low", "high")
+    alike = edit(found, "back.gear == Gear.low;", "Gear.low", "middle")
+    assert cost_of(*twice, usage) < cost_of(*once, usage)
+    assert cost_of(*once, usage) <= cost_of(*alike, usage)
+
+
+@pytest.mark.parametrize(("levels", "is_soon"), [("10.0, 80.0, 100.0", True), ("80.0, 10.0, 100.0", False)])
+def test_the_levels_of_a_store_may_be_in_the_wrong_order(tmp_path: Path, levels: str, is_soon: bool) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_text(f'#include "Resources.nddl"\nReservoir store = new Reservoir({levels});\n')
+    (site,) = sites_of(load_graph(path, ()))
+    swapped = [one for one in site.edits if one.kind is EditKind.ARGUMENTS]
+    assert [one.new for one in swapped] == [
+        ", ".join(levels.split(", ")[k] for k in (1, 0)),
+        ", ".join(levels.split(", ")[k] for k in (2, 1)),
+    ]
+    usage = usage_of([site])
+    assert ((delay_of(swapped[0], site, usage) or 0.0) < 0.0) is is_soon
