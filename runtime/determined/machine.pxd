@@ -5,7 +5,7 @@ from libc cimport math
 from runtime.determined.log cimport Log
 from runtime.determined.present cimport Present
 
-cdef long long CHANGES, DUE, ENDING, FOLLOWER, LEAST, MOST, NONE, OWNER, PREDICATE, ROW, RUNS_ON, SLOT, START, STOPS, WISHED
+cdef long long CHANGES, DUE, ENDING, FOLLOWER, LEAST, MOST, NONE, OWNER, PREDICATE, ROW, RUNS_ON, STOPS, WISHED
 cdef long long WISH, WISH_END_FROM, WISH_END_UNTIL, WISH_FROM, WISH_LEAST, WISH_MOST
 cdef double _LARGEST, _NAN, _TOLERANCE
 
@@ -43,5 +43,5 @@ cdef class Machine:
     @cython.locals(out="long long", a="long long", b="long long", j="long long", z="double")
     cpdef bint carry_out(self, long long at) except -1
 
-    @cython.locals(block="long long", bound="long long", holds="bint")
+    @cython.locals(block="long long", bound="long long", holds="bint", value="double")
     cpdef bint arrange(self, long long op, long long line, long long a, long long b, long long at) except -1

@@ -25,8 +25,6 @@ from runtime.determined.tags import (
     PREDICATE,
     ROW,
     RUNS_ON,
-    SLOT,
-    START,
     STOPS,
     WISH,
     WISH_END_FROM,
@@ -99,8 +97,9 @@ class Machine:
         The last tick that was carried out is returned; `why` tells what ended the run.
         """
         present = self.present
+        present.steady = NONE
         while True:
-            due = present.next_event(tick)
+            due = present.coming(tick)
             if due > limit:
                 self.why = RUNS_ON
                 return limit
@@ -136,6 +135,8 @@ class Machine:
         n = self.lines
         present = self.present
         self.registers[0] = tick
+        if present.steady >= 0:
+            return self.start_block(present.steady, tick) and present.end_tick(tick)
         for k in range(n):
             i = self.order[k]
             if i < 0:
@@ -370,9 +371,7 @@ class Machine:
                 return False
             if present.state[DUE * n + line] >= 0 and not present.changed >> line & 1:
                 return False  # what is due there has not been taken yet
-            present.state[FOLLOWER * n + line] = block
-            present.state[OWNER * n + line] = a
-            return True
+            return bool(present.follow(line, a, block))
         if op == 39:  # TIE
             present.tie(line, a)
             return True
@@ -391,10 +390,4 @@ class Machine:
         if not -_LARGEST < value < _LARGEST or value != math.floor(value):
             return False
         bound = int(value)
-        bound += present.state[START * n + line]
-        slot = present.state[SLOT * n + line]
-        if op != 38 and bound > present.state[LEAST * n + slot]:  # LAST_EXACTLY, LAST_LEAST
-            present.state[LEAST * n + slot] = bound
-        if op != 37 and bound < present.state[MOST * n + slot]:  # LAST_EXACTLY, LAST_MOST
-            present.state[MOST * n + slot] = bound
-        return True
+        return bool(present.bound(line, bound, op != 38, op != 37))  # LAST_EXACTLY, LAST_LEAST, LAST_MOST

@@ -7,11 +7,13 @@ cdef long long WISH_UNTIL, BEFORE, SECTIONS
 
 
 cdef class Present:
-    cdef public long long lines, before, pairs, now, reach, changed, alone
+    cdef public long long lines, before, pairs, now, reach, changed, alone, steady, rest
     cdef public long long[::1] state, kept, flags, is_used
 
     @cython.locals(k="long long")
     cpdef int clear(self) except -1
+
+    cpdef long long coming(self, long long tick) except? -1
 
     @cython.locals(found="long long", state="long long[::1]")
     cpdef long long next_event(self, long long tick) except? -1
@@ -30,11 +32,21 @@ cdef class Present:
     @cython.locals(j="long long", left="long long", state="long long[::1]")
     cpdef bint end_tick(self, long long tick) except -1
 
+    @cython.locals(i="long long", state="long long[::1]")
+    cpdef bint becomes_steady(self, long long tick) except -1
+
+    @cython.locals(i="long long", state="long long[::1]")
+    cpdef bint stays_steady(self, long long tick) except -1
+
     cpdef bint has_room(self, long long i, long long tick) except -1
     cpdef bint has_length(self, long long i) except -1
 
     @cython.locals(moved="bint")
     cpdef bint order_ends(self, long long a, long long b) except -1
+
+    cpdef bint bound(self, long long i, long long duration, bint is_least, bint is_most) except -1
+
+    cpdef bint follow(self, long long i, long long owner, long long block) except -1
 
     cpdef int tie(self, long long a, long long b) except -1
 

@@ -3,6 +3,9 @@
 
 The end of a token is a pair of bounds in a slot; tokens that end together share one. Orders of two ends are pairs of
 timelines, valid while both tokens hold. All of it is in one array, so that a snapshot is one copy.
+
+A present is steady while one timeline alone makes token after token of its own and nothing else can change what is due.
+Then a tick touches that timeline and the ends that its token orders; whatever else a block does makes it unsteady.
 """
 
 from array import array
@@ -43,6 +46,8 @@ class Present:
         self.reach = 1  # how many ticks ahead of its window a request is looked at
         self.changed = 0  # a bit for each timeline on which a token has started at this tick
         self.alone = NONE  # the only timeline to which something happens at the next event, if there is just one
+        self.steady = NONE  # the timeline whose tokens follow each other, as long as nothing else happens
+        self.rest = FAR  # the first tick at which something else may happen
         self.clear()
 
     def clear(self) -> int:
@@ -58,6 +63,15 @@ class Present:
             self.state[WISH * n + i] = NONE
             self.state[BEFORE * n + i] = NONE
         return 0
+
+    def coming(self, tick: int) -> int:
+        """The next event, as long as nobody but the machine has changed anything since it was last asked for."""
+        if self.steady >= 0:
+            due = self.state[MOST * self.lines + self.steady]
+            if tick < due < self.rest:
+                return due
+            self.steady = NONE
+        return self.next_event(tick)
 
     def next_event(self, tick: int) -> int:
         """The first tick after `tick` at which something may end or start by itself."""
@@ -98,6 +112,12 @@ class Present:
         n = self.lines
         state = self.state
         i = self.alone
+        if self.steady >= 0:
+            self.now = tick
+            self.changed = 0
+            state[DUE * n + i] = state[FOLLOWER * n + i]
+            state[FOLLOWER * n + i] = NONE
+            return True
         if i < 0 or self.is_used[i] or state[FOLLOWER * n + i] < 0 or state[OWNER * n + i] != i:
             return False
         if state[LEAST * n + state[SLOT * n + i]] > tick:
@@ -126,6 +146,8 @@ class Present:
         n = self.lines
         self.now = tick
         self.changed = 0
+        self.alone = NONE
+        self.steady = NONE
         for i in range(n):
             self.state[ENDING * n + i] = 0
             self.state[DUE * n + i] = NONE
@@ -203,6 +225,8 @@ class Present:
         state = self.state
         pairs = self.pairs
         count = state[pairs]
+        if self.steady >= 0 and self.stays_steady(tick):
+            return True
         grows = True
         while grows:
             grows = False
@@ -236,6 +260,48 @@ class Present:
                     state[pairs + 1 + 4 * left + j] = state[at + j]
                 left += 1
         state[pairs] = left
+        self.steady = self.alone if self.becomes_steady(tick) else NONE
+        return True
+
+    def becomes_steady(self, tick: int) -> bool:
+        """Whether only the timeline `alone` changes after `tick`, up to before `rest`."""
+        n = self.lines
+        state = self.state
+        i = self.alone
+        if i < 0 or self.changed != 1 << i or state[self.pairs] or state[SLOT * n + i] != i:
+            return False
+        if state[FOLLOWER * n + i] < 0:
+            return False
+        self.rest = FAR
+        for j in range(n):
+            if state[FOLLOWER * n + j] >= 0 and state[OWNER * n + j] != j:
+                return False
+            if state[WISH * n + j] >= 0:
+                if state[WISH_FROM * n + j] - self.reach <= tick:
+                    return False
+                self.rest = min(self.rest, state[WISH_FROM * n + j] - self.reach)
+            if j != i and state[PREDICATE * n + j] >= 0:
+                if state[SLOT * n + j] == i:
+                    return False
+                self.rest = min(self.rest, state[MOST * n + state[SLOT * n + j]])
+        return True
+
+    def stays_steady(self, tick: int) -> bool:
+        """End a tick at which only the steady timeline has changed; false, and nothing lost, if there is more to do."""
+        n = self.lines
+        state = self.state
+        i = self.steady
+        least = state[LEAST * n + i]
+        if state[FOLLOWER * n + i] < 0 or least != state[MOST * n + i] or least <= tick:
+            return False
+        for k in range(state[self.pairs]):
+            at = self.pairs + 1 + 4 * k
+            slot = state[SLOT * n + state[at + 1]]
+            if state[at] != i or state[MOST * n + slot] < least:
+                return False
+            if state[LEAST * n + slot] < least:
+                state[LEAST * n + slot] = least
+        state[self.pairs] = 0
         return True
 
     def has_room(self, i: int, tick: int) -> bool:
@@ -266,6 +332,27 @@ class Present:
             moved = self.state[MOST * n + second] >= self.state[LEAST * n + second]
         return moved
 
+    def bound(self, i: int, duration: int, is_least: bool, is_most: bool) -> bool:
+        """Bound the duration of a token from below, from above, or both."""
+        n = self.lines
+        slot = self.state[SLOT * n + i]
+        end = self.state[START * n + i] + duration
+        if slot != self.steady:
+            self.steady = NONE
+        if is_least and end > self.state[LEAST * n + slot]:
+            self.state[LEAST * n + slot] = end
+        if is_most and end < self.state[MOST * n + slot]:
+            self.state[MOST * n + slot] = end
+        return True
+
+    def follow(self, i: int, owner: int, block: int) -> bool:
+        """Let a token of a block follow on a timeline as soon as the token of `owner` ends."""
+        if i != self.steady or i != owner:
+            self.steady = NONE
+        self.state[FOLLOWER * self.lines + i] = block
+        self.state[OWNER * self.lines + i] = owner
+        return True
+
     def tie(self, a: int, b: int) -> int:
         """Let the tokens of two timelines end together."""
         n = self.lines
@@ -273,6 +360,7 @@ class Present:
         second = self.state[SLOT * n + b]
         if first == second:
             return 0
+        self.steady = NONE
         self.state[LEAST * n + first] = max(self.state[LEAST * n + first], self.state[LEAST * n + second])
         self.state[MOST * n + first] = min(self.state[MOST * n + first], self.state[MOST * n + second])
         for i in range(n):
@@ -299,6 +387,8 @@ class Present:
     def start(self, i: int, predicate: int) -> int:
         """Make a token of `predicate` the current one of a timeline."""
         n = self.lines
+        if i != self.steady:
+            self.steady = NONE
         self.state[BEFORE * n + i] = self.state[PREDICATE * n + i]
         self.state[PREDICATE * n + i] = predicate
         self.state[START * n + i] = self.now

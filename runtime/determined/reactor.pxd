@@ -44,6 +44,8 @@ cdef class DeterminedReactor(TeleoReactor):
 
     cpdef object _take_requests(self, long long tick)
 
+    cpdef bint _is_open(self, long long tick) except -1
+
     cpdef bint _comes_last(self, wish, long long tick) except -1
 
     cpdef long long next_tick(self, long long tick) except? -1

@@ -220,14 +220,13 @@ class DeterminedReactor(TeleoReactor):
         if not self.wishes:
             return False
         reach = tick + self.machine.present.reach
-        return any(
-            self._comes_last(wish, tick)
-            or (
-                wish is not self.publisher.asked.get(wish.line)
-                and (wish.line not in self.publisher.asked or wish.request.start[0] <= reach)
-            )
-            for wish in self.wishes
-        )
+        asked = self.publisher.asked
+        for wish in self.wishes:
+            if self._comes_last(wish, tick):
+                return True
+            if wish is not asked.get(wish.line) and (wish.line not in asked or wish.request.start[0] <= reach):
+                return True
+        return False
 
     def _comes_last(self, wish: Wish, tick: int) -> bool:
         """Whether a request might start at the final tick, when the planner begins nothing that was asked for."""
