@@ -149,6 +149,7 @@ def _check(post: Post, meaning: Meaning, names: VariableNames) -> RowStep:
 
     def step(frame: RowFrame) -> None:
         columns = [frame.use(read(frame)) for read in reads]
+        _need_numbers(post.name, columns)
         holds = None if plain is None else plain(columns)
         count = frame.tally.count
         if holds is None:
@@ -181,6 +182,12 @@ def _check_loose(post: Post, meaning: Meaning, names: VariableNames) -> RowStep:
         tally.judge(holds if fixed is None else holds & fixed)
 
     return step
+
+
+def _need_numbers(name: str, columns: Sequence[Column]) -> None:
+    """Leave a function of texts to others: only a child that is another token than the rule asks for has them."""
+    if name in COMPUTED and any(column.kind == TEXT for column in columns):
+        raise UnplainError
 
 
 def _one_by_one(meaning: Meaning, columns: Sequence[Column], frame: RowFrame, rows: Array) -> Mask:
@@ -238,6 +245,7 @@ def _define(post: Post, index: int, slot: int, names: VariableNames) -> RowStep:
 
     def make(frame: RowFrame) -> Column:
         columns = [frame.use(read(frame)) for read in others]
+        _need_numbers(post.name, columns)
         found = quick(columns, frame) if quick is not None and closed(columns, frame.tally.count) is None else None
         if found is not None:
             return found

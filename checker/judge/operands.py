@@ -146,7 +146,8 @@ def _token_reader(token: int, variable: int) -> Read:
             return duration_of(tok)
         if variable == STATE:
             return tok.record.state.upper()
-        return tok.values[variable]
+        # What was merged into a token of another predicate, which is reported, may lack it.
+        return tok.values[variable] if variable < len(tok.values) else UNKNOWN
 
     return read
 

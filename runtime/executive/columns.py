@@ -193,4 +193,6 @@ def value_column(numbers: Array, kind: str) -> ValueColumn:
     """The column of numbers as registers hold them."""
     has_open = bool(np.isnan(numbers.sum())) and bool(np.isnan(numbers).any())
     name = kind if kind in ("int", "bool", "float") else "name"
-    return ValueColumn(name, numbers if has_open or kind == "float" else numbers.astype(np.int64), has_open)
+    if has_open or kind == "float":
+        return ValueColumn(name, numbers, has_open)
+    return ValueColumn(name, (numbers != 0.0 if kind == "bool" else numbers).astype(np.int64), False)

@@ -18,6 +18,7 @@ from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, record_mission
 from runtime.executive.outcome import Outcome
 from runtime.executive.record import MissionRecord, TokenRecord
+from tests.checker.judge.corrupted_columns import FILES, compare, flight
 from tests.programs import programs_of
 
 
@@ -80,3 +81,11 @@ def test_altered_columns_are_found_out_as_altered_tokens_are(flown: Flown) -> No
         found += bool(report.disagreements)
         machine.log.values[index] = before
     assert found > 12
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.parent.name)
+def test_columns_say_of_corrupted_records_what_single_tokens_say(path: Path) -> None:
+    flown = flight(path, 4)
+    told = [compare(flown, random.Random(f"{path.parent.name} {number}")) for number in range(10)]
+    assert all(is_same for _, is_same, _ in told), told
+    assert sum(is_noticed for _, _, is_noticed in told) >= 3
