@@ -1,4 +1,4 @@
-# The C types of `bases.py`.
+# The C types of `base_domain.py`.
 
 cimport cython
 from runtime.constraints.domains.store cimport Store

@@ -1,4 +1,4 @@
-# The C types of `bits.py`.
+# The C types of `bitset.py`.
 
 cimport cython
 from runtime.constraints.domains.store cimport Store

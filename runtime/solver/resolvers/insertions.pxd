@@ -1,5 +1,6 @@
 # The C types of `insertions.py`.
 
+cimport cython
 from runtime.constraints.domains.bitset cimport next_value
 from runtime.solver.flaws.decisions cimport Decisions
 from runtime.solver.flaws.agenda cimport Agenda
@@ -16,6 +17,7 @@ cpdef int _list_insertions_on(Agenda agenda, Decisions stack, long long d, long 
 
 cpdef bint _is_for_goal(Agenda agenda, long long t) except -1
 
+@cython.locals(theirs="long long", begin=double, free=double, is_asked=bint)
 cpdef int _list_behind_goals(Agenda agenda, Decisions stack, long long start, long long t) except -1
 
 cpdef long long _first_apart(Agenda agenda, Reach reach, long long time, long long count, bint is_reversed) except? -1

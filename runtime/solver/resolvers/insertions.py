@@ -69,17 +69,25 @@ def _is_for_goal(agenda: Agenda, t: int) -> bool:
 def _list_behind_goals(agenda: Agenda, stack: Decisions, start: int, t: int) -> None:
     """Let insertions, from index `start` of the pool on, begin behind what goals ask for and what may start before `t`.
 
-    Then come the later ones, and the earlier ones from right to left. Who plans for an executive keeps goals from
-    waiting by this; otherwise the order is EUROPA's, from left to right.
+    A goal that asked for no later start but waits for such goals comes before `t`, too: equals keep their order. Then
+    come the later ones, and the earlier ones from right to left. Who plans for an executive keeps goals from waiting by
+    this; otherwise the order is EUROPA's, from left to right.
     """
     engine = agenda.engine
     mine = agenda.rows.var0[t] + START
     end = stack.pool_used
     first = start
+    free = engine.lb[mine]  # from when on `t` has the timeline, behind all of these
     for at in range(start, end - 1):
         after = stack.pool_after[at]
-        if engine.lb[agenda.rows.var0[after] + START] <= engine.lb[mine] and _is_for_goal(agenda, after):
+        theirs = agenda.rows.var0[after]
+        begin = engine.lb[theirs + START]
+        if begin > free or not _is_for_goal(agenda, after):
+            continue
+        is_asked = agenda.rows.flags[after] & FLAG_GOAL and engine.base_lower(theirs + START) <= engine.lb[mine]
+        if is_asked or begin <= engine.lb[mine]:
             first = at + 1
+            free = max(free, engine.lb[theirs + END])
     if first > start:
         stack.reverse_pool(first, end)
         stack.reverse_pool(start, end)
