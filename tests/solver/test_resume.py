@@ -68,7 +68,7 @@ def test_every_parameter_of_a_token_with_many_is_decided(tmp_path: Path) -> None
     ranges = " ".join(f"leq(1, {name}); leq({name}, 2);" for name in names)
     text = (
         f"class Lamp extends Timeline {{ predicate On {{ {parameters} }} }} Lamp::On {{ eq(duration, 3); {ranges} }}"
-        "Lamp a = new Lamp(); close(); fact(Lamp.On one); eq(one.start, 10);"
+        "Lamp a = new Lamp(); close(); fact(Lamp.On one); eq(one.start, 10); one.activate();"
     )
     solver = solver_for(tmp_path, text)
     assert solver.solve(200, 200) == PLAN
