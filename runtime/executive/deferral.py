@@ -64,16 +64,18 @@ class Deferral:
             if waiting:
                 last = max(last, waiting[len(waiting) - 1].tick)
         found = []
-        order = list(self.lines)
+        order = {name: number for number, name in enumerate(self.lines)}
         for name, waiting in self.waiting.items():
+            number = order[name]
             for k, each in enumerate(waiting):
                 is_kept = k >= len(waiting) - _KEPT
                 # When the token before it ended, if that is in the plan; else when it ends itself.
                 end = waiting[k + 1].tick if not is_kept else waiting[0 if k <= len(waiting) - _KEPT else k].tick
-                found.append((each.tick, order.index(name), each, end, is_kept))
+                found.append((each.tick, number, each, end, is_kept))
         gone: list[OverToken] = []
         # Keys are given in the order of time, as if each had been folded in when it came.
-        for _, _, each, end, is_kept in sorted(found, key=lambda one: one[:2]):
+        found.sort()  # by tick and line: no line has two of one tick
+        for _, _, each, end, is_kept in found:
             if is_kept:
                 self._observe(self.lines[each.timeline], each, end)
             else:
@@ -111,9 +113,13 @@ class Deferral:
         name = self.bench.predicate_name(predicate)
         key = take_key(self.bench.plan)
         begun = observation.tick
-        values = tuple([_value(domain) for _, domain in observation.arguments])
+        values: list[Value] = []
+        for _, domain in observation.arguments:
+            interval = domain.interval
+            assert interval is not None  # so it fits
+            values.append(interval[0])
         times = (end - begun, begun, end)
-        fields = (key, name, line.name, "active", *times, values, NOBODY, "observation", "over", end, ())
+        fields = (key, name, line.name, "active", *times, tuple(values), NOBODY, "observation", "over", end, ())
         self.passed.append(make_tuple(TokenRecord, fields))
         return OverToken(NOTHING, key, predicate, line.object_id, begun, end, observation.arguments)
 
@@ -171,8 +177,3 @@ def _is_unlimited(domain: DomainConstant | None) -> bool:
     return domain is None or (
         domain.interval is not None and domain.interval[0] <= -HALF_INF and domain.interval[1] >= HALF_INF
     )
-
-
-def _value(domain: DomainConstant) -> Value:
-    assert domain.interval is not None
-    return domain.interval[0]

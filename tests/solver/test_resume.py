@@ -60,3 +60,18 @@ def test_a_window_that_opens_shows_all_flaws(tmp_path: Path, again: str) -> None
     found = steps(solver)
     assert len(found) > 6
     assert found == steps(fresh)
+
+
+def test_every_parameter_of_a_token_with_many_is_decided(tmp_path: Path) -> None:
+    names = [f"p{k}" for k in range(70)]
+    parameters = " ".join(f"int {name};" for name in names)
+    ranges = " ".join(f"leq(1, {name}); leq({name}, 2);" for name in names)
+    text = (
+        f"class Lamp extends Timeline {{ predicate On {{ {parameters} }} }} Lamp::On {{ eq(duration, 3); {ranges} }}"
+        "Lamp a = new Lamp(); close(); fact(Lamp.On one); eq(one.start, 10); one.activate();"
+    )
+    solver = solver_for(tmp_path, text)
+    assert solver.solve(200, 200) == PLAN
+    rows, engine = solver.plan.rows, solver.engine
+    first = int(rows.var0[0])
+    assert all(engine.is_singleton(v) for v in range(first, first + int(rows.width[0])))

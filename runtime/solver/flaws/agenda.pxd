@@ -41,7 +41,7 @@ cdef class Agenda:
     cdef public long long[::1] token_level, active_level, order_level, variable_row, variable_key, variable_deferred
     cdef public long long[::1] variable_level, waits_for, waiting_next, waiting_before, edge_level, constraint_level
     cdef public long long[::1] restriction_level, dynamic_slot, dynamic_is_variable, dropped_slot, dropped_kind
-    cdef public long long[::1] fired_scope, fired_end, waiting_guards
+    cdef public long long[::1] fired_scope, fired_end, unbound_masks, waiting_guards
     cdef public signed char[::1] watched
     cdef public SparseSet touched
     cdef public double found_priority

@@ -62,6 +62,7 @@ class Agenda:
                 first = table.manager_heap[manager]
                 for heap in range(first, first + table.manager_heaps[manager]):
                     self.sorted_by_size[heap] = 1 if not in_order or table.heap_priority[heap] != 0.0 else 0
+        self.unbound_masks = array("q", [NONE]) * 64  # by kind of token: which of its variables are decided
         self.sequence = TimelineSequence(plan, exact)
         self.level = 0
         self.found_manager = self.found_kind = self.found_item = self.found_handler = NONE

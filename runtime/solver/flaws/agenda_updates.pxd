@@ -3,16 +3,22 @@
 cimport cython
 from runtime.constraints.domains.base_domain cimport is_base_single
 from runtime.constraints.domains.narrow cimport is_single
+from runtime.constraints.engine cimport Engine
+from runtime.plan.store.rows cimport Rows
+from runtime.solver.configuration.handler_table cimport HandlerTable
 from runtime.solver.flaws.agenda cimport Agenda
 
-cdef long long ACTIVE, BRANCH_WAITING, END, FLAG_EFFECT, INACTIVE, LISTS, LIST_ORDER, NONE, NO_KEY, OPEN_CONDITION, ROLE_GLOBAL
-cdef long long ROLE_INTERNAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START, THREAT, TRAIL_CONSTRAINT, TRAIL_EDGE
+cdef long long ACTIVE, BRANCH_WAITING, END, FLAG_EFFECT, INACTIVE, _LAST_BIT, LISTS, LIST_ORDER, NONE, NO_KEY, _ONE
+cdef long long OPEN_CONDITION, ROLE_GLOBAL, ROLE_INTERNAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START, THREAT
+cdef long long TRAIL_CONSTRAINT, TRAIL_EDGE
 cdef long long TRAIL_NARROWING, TRAIL_RESTRICTION, TRAIL_VARIABLE, UNBOUND_VARIABLE, UNDO_LINK
 cdef long long UNDO_NEW_TOKEN, UNDO_STATUS
 
 
 @cython.locals(
-    kind="long long", latest="long long", role="long long", s="long long", t="long long", v="long long"
+    after="long long", constant="signed char[::1]", decided="signed char[::1]", engine=Engine, exact=bint,
+    first="long long", kinds="signed char[::1]", mask="long long", owners="long long[::1]", role="long long",
+    roles="long long[::1]", rows=Rows, s="long long", t="long long", v="long long",
 )
 cpdef int rebuild(Agenda agenda) except -1
 
@@ -53,7 +59,8 @@ cpdef int _add_token(Agenda agenda, long long t, long long flaw) except -1
 cpdef int _add_threat(Agenda agenda, long long t) except -1
 
 
-cpdef bint _may_be_flaw(Agenda agenda, long long kind, long long number) except -1
+@cython.locals(kind="long long", mask="long long", manager="long long", number="long long", table=HandlerTable)
+cpdef long long _unbound_mask(Agenda agenda, long long t) except? -1
 
 
 cpdef int _add_variable(Agenda agenda, long long v) except -1

@@ -1,5 +1,6 @@
 """Agenda updates: candidates that the new part of the trails of plan and engine adds or moves."""
 
+from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.base_domain import is_base_single
 from runtime.constraints.domains.narrow import is_single
 from runtime.constraints.domains.tags import (
@@ -30,6 +31,9 @@ from runtime.plan.tags import (
 from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.tags import NO_KEY, NONE, OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
 
+_ONE = 1
+_LAST_BIT = 62  # of a mask: it stands for all variables from there on
+
 
 def rebuild(agenda: Agenda) -> None:
     """Rebuild the agenda from every token and variable; levels count from here."""
@@ -40,25 +44,33 @@ def rebuild(agenda: Agenda) -> None:
             _add_token(agenda, t, OPEN_CONDITION)
         elif agenda.rows.status[t] == ACTIVE:
             _add_threat(agenda, t)
-    engine = agenda.engine
-    latest = kind = NONE  # of the variables of a token, which stand side by side
-    for v in range(engine.variables):
-        # What is decided, which most are, is never a flaw.
-        if engine.kind[v] < 0 or engine.constant[v] or engine.decided[v]:
+    engine, rows, exact = agenda.engine, agenda.rows, agenda.exact
+    kinds, constant, decided = engine.kind, engine.constant, engine.decided
+    roles, owners = agenda.plan.variable_role, agenda.plan.variable_owner
+    first = after = NONE  # the variables of the token at hand, which stand side by side
+    mask = 0  # which of them may be flaws
+    v = NONE
+    while v + 1 < engine.variables:
+        v += 1
+        if kinds[v] < 0 or constant[v]:
             continue
-        role = agenda.plan.variable_role[v]
+        role = roles[v]
         if role == ROLE_INTERNAL:
             continue
-        if role == ROLE_TOKEN or role == ROLE_LOCAL:
-            t = agenda.plan.variable_owner[v]
-            if agenda.rows.status[t] != ACTIVE:
+        if role == ROLE_TOKEN:
+            if v >= after:
+                t = owners[v]
+                first, after = rows.var0[t], rows.var0[t] + rows.width[t]
+                mask = _unbound_mask(agenda, t) if rows.status[t] == ACTIVE else 0
+            if mask == 0:
+                v = after - 1
                 continue
-            if role == ROLE_TOKEN:
-                if t != latest:
-                    latest, kind = t, _kind_of(agenda, t)
-                if not _may_be_flaw(agenda, kind, v - agenda.rows.var0[t]):
-                    continue
-        if not agenda.exact and is_single(engine, v) and is_base_single(engine, v):
+            if not mask >> min(v - first, _LAST_BIT) & 1:
+                continue
+        # What is decided, which most are, is never a flaw.
+        if decided[v] or (role == ROLE_LOCAL and rows.status[owners[v]] != ACTIVE):
+            continue
+        if not exact and is_single(engine, v) and is_base_single(engine, v):
             continue
         _add_variable(agenda, v)
     for s in range(agenda.rows.scope_count):
@@ -223,13 +235,19 @@ def _add_token(agenda: Agenda, t: int, flaw: int) -> None:
                 agenda.offer_token(slot)
 
 
-def _may_be_flaw(agenda: Agenda, kind: int, number: int) -> bool:
-    """Whether some manager decides variable `number` of tokens of a kind, when it is unbound."""
-    table = agenda.table
-    for manager in range(table.managers):
-        if table.manager_kind[manager] == UNBOUND_VARIABLE and table.variable_row(manager, kind, number) >= 0:
-            return True
-    return False
+def _unbound_mask(agenda: Agenda, t: int) -> int:
+    """Which variables of a token some manager decides when they are unbound, as bits; the last stands for the rest."""
+    table, kind = agenda.table, _kind_of(agenda, t)
+    if kind >= len(agenda.unbound_masks):
+        grow_rows(agenda, "unbound_masks", 2 * kind + 64, NONE)
+    if agenda.unbound_masks[kind] == NONE:
+        mask = 0
+        for number in range(agenda.rows.width[t]):
+            for manager in range(table.managers):
+                if table.manager_kind[manager] == UNBOUND_VARIABLE and table.variable_row(manager, kind, number) >= 0:
+                    mask |= _ONE << min(number, _LAST_BIT)
+        agenda.unbound_masks[kind] = mask
+    return agenda.unbound_masks[kind]
 
 
 def _add_variable(agenda: Agenda, v: int) -> int:
