@@ -126,9 +126,14 @@ def read_batch(source: Source) -> tuple[BatchFile | None, tuple[Diagnostic, ...]
 
 
 def _find(node: _Node) -> list[_Node]:
-    if node.tag == _PARAMETER:
-        return [node]
-    return [found for child in node.children for found in _find(child)]
+    found, pending = [], [node]
+    while pending:
+        node = pending.pop()
+        if node.tag == _PARAMETER:
+            found.append(node)
+        else:
+            pending += reversed(node.children)
+    return found
 
 
 def _parameter(node: _Node, complaints: list[Diagnostic]) -> tuple[ParameterConfiguration, int | None]:

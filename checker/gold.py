@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from nddl_lang.text.values import json_value
 from runtime.executive.outcome import Event, EventKind, Outcome
 from runtime.executive.rendering import event_text
 
@@ -70,7 +71,7 @@ def gold_text(gold: Gold) -> str:
 def read_gold(path: Path) -> Gold:
     """Read a gold standard; raises OSError, or ValueError where the file is none."""
     lines = path.read_text(encoding="utf-8").splitlines()
-    head: dict[str, Any] = json.loads(lines[0]) if lines else {}
+    head: dict[str, Any] = json_value(lines[0]) if lines else {}
     try:
         values = {str(name): float(value) for name, value in head["values"].items()}
         return Gold(

@@ -23,7 +23,8 @@ from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_source
 from nddl_lang.text.source import Source, Span
-from nddl_lang.text.toml_places import find_places, split_error, toml_of
+from nddl_lang.text.toml_places import find_places, split_error
+from nddl_lang.text.values import toml_value
 from runtime.executive.configuration import (
     AgentConfiguration,
     Bounds,
@@ -79,7 +80,7 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
         text, found = read_agent_file(source, root)
         return _mission_of(text, found, root) if found else (None, tuple(text.diagnostics))
     try:
-        values = tomllib.loads(toml_of(source.text))
+        values = toml_value(source.text)
     except tomllib.TOMLDecodeError as problem:
         return None, (_not_toml(source, str(problem)),)
     return _mission_of(MissionText(source, find_places(source.text)), values, root)

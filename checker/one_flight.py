@@ -14,6 +14,7 @@ from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Judgement, judge, judge_losses
 from checker.pinned import pinned
+from nddl_lang.text.values import json_value
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import trace_json
 
@@ -77,7 +78,7 @@ class Recorded:
 def read_trace(path: Path) -> Recorded:
     """Read a trace; raises OSError, or ValueError where the file is none."""
     lines = path.read_text(encoding="utf-8").splitlines()
-    head: dict[str, Any] = json.loads(lines[0]) if lines else {}
+    head: dict[str, Any] = json_value(lines[0]) if lines else {}
     if not isinstance(head, dict) or head.get("kind") != _HEAD:
         raise ValueError("its first line does not say which mission it is of")
     try:

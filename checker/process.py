@@ -9,6 +9,8 @@ from dataclasses import asdict, dataclass
 from enum import StrEnum
 from pathlib import Path
 
+from nddl_lang.text.values import json_value
+
 
 class ProcessStep(StrEnum):
     """A step; each needs a record of the one before."""
@@ -55,7 +57,7 @@ def read_records(path: Path) -> tuple[StepRecord, ...]:
         return ()
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
-        return tuple(StepRecord(**json.loads(line)) for line in lines if line.strip())
+        return tuple(StepRecord(**json_value(line)) for line in lines if line.strip())
     except TypeError as problem:
         raise ValueError(str(problem)) from problem
 

@@ -15,6 +15,7 @@ from checker.batch.result import MissionResult
 from checker.conditions.space import fixed
 from checker.oracle import Verdict
 from checker.sampling.sampler import RANDOM_POINT, SamplePoint, with_point
+from nddl_lang.text.values import toml_value
 from runtime.executive.configuration import AgentConfiguration
 
 _NAME_ENDS = ".regressions.toml"
@@ -68,7 +69,7 @@ def read_cases(path: Path) -> tuple[RegressionCase, ...]:
     if not path.exists():
         return ()
     try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
+        data = toml_value(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
         raise RegressionError(f"`{path}`: {problem}") from None
     cases = data.get("case", [])

@@ -12,6 +12,7 @@ from lsp.documents import Documents
 from lsp.hierarchies import incoming_calls, outgoing_calls, prepare_calls, prepare_types, subtypes, supertypes
 from lsp.hover import hover_at, link
 from lsp.mission_answers import mission_completions, mission_definition, mission_hover
+from lsp.mission_shape import mission_outline
 from lsp.mission_texts import OpenMission, place_at
 from lsp.mission_uses import MissionUse, mission_uses, symbol_named
 from lsp.navigation import declaration, definition, implementations, type_definition
@@ -120,6 +121,7 @@ def _answer_navigation(session: Session) -> None:
         types.TEXT_DOCUMENT_DOCUMENT_SYMBOL,
         lambda view, params: outline(view.parse, view.document.lines),
         nothing=list,
+        of_mission=lambda mission, params: mission_outline(mission),
     )
 
     @session.feature(types.WORKSPACE_SYMBOL)

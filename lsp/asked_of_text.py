@@ -10,6 +10,7 @@ from lsp.inlay_hints import inlay_hints
 from lsp.lenses import code_lenses
 from lsp.mending import can_fix_all, fix_all, formatting, formatting_of_lines, formatting_of_statement, mends
 from lsp.mission_answers import mission_lenses
+from lsp.mission_shape import mission_folds, mission_links
 from lsp.open_text import DocumentContext
 from lsp.refactorings import refactorings
 from lsp.semantic_tokens import LEGEND, tokens_between
@@ -130,6 +131,7 @@ def _answer_shape(session: Session) -> None:
         types.TEXT_DOCUMENT_FOLDING_RANGE,
         lambda view, params: folding_ranges(view.parse, view.document.lines),
         nothing=list,
+        of_mission=lambda mission, params: mission_folds(mission),
     )
     session.answer(
         types.TEXT_DOCUMENT_SELECTION_RANGE,
@@ -140,6 +142,7 @@ def _answer_shape(session: Session) -> None:
         types.TEXT_DOCUMENT_DOCUMENT_LINK,
         lambda view, params: document_links(view, session.documents.conversion()),
         nothing=list,
+        of_mission=lambda mission, params: mission_links(mission),
     )
     session.answer(
         types.TEXT_DOCUMENT_INLAY_HINT,

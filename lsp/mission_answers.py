@@ -24,7 +24,7 @@ from lsp.describe import Describer, parameter_text
 from lsp.diagnostics import Conversion
 from lsp.documents import Documents
 from lsp.hover import link
-from lsp.mission_texts import MissionPlace, OpenMission, place_at
+from lsp.mission_texts import FILE_KEYS, MissionPlace, OpenMission, place_at
 from lsp.project import Snapshot
 from lsp.roots import models_below
 from lsp.uris import uri_of
@@ -84,10 +84,10 @@ def mission_definition(
 ) -> Location | None:
     """Where in the models, or in which file, what a value names is."""
     place = place_at(mission.text, offset)
-    if place.is_value and place.key in ("model", "solver", "batch", "modules", "code"):
-        path = mission.path.parent / place.word.partition(":")[0]
+    if place.is_value and place.key in FILE_KEYS:
+        path = mission.file_named(place.word)
         start = mission.lines.range(0, 0).start
-        return Location(uri_of(path), Range(start, start)) if path.is_file() else None
+        return Location(uri_of(path), Range(start, start)) if path is not None else None
     for snapshot, thing in named(documents, mission, place):
         span = declared_at(snapshot, thing)
         if span is not None:

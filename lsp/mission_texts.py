@@ -26,6 +26,7 @@ _MISSION = re.compile(r"^[ \t]*\[(?:mission|\[reactor\])\]", re.MULTILINE)
 _FIGURES = ("figures",)  # there `samples = "gulper.Firing"` names two things
 _WORDS = ("mission", "solver")
 _CONFIGURATIONS = (NAME, PROJECT)
+FILE_KEYS = ("model", "solver", "batch", "modules", "code")  # whose values name files
 _STRING = re.compile(r"""(["'])((?:(?!\1)[^\n\\]|\\.)*)\1?""")
 
 
@@ -47,6 +48,14 @@ class OpenMission:
     def models(self) -> list[Path]:
         """The models that its reactors run, in the order of the text, each once."""
         return [self.path.parent / name for name in dict.fromkeys(_MODEL.findall(self.text))]
+
+    def file_named(self, value: str) -> Path | None:
+        """The file that a value names, which may be `file.py:Class`; None where there is none."""
+        path = self.path.parent / value.partition(":")[0]
+        try:
+            return path if path.is_file() else None
+        except (OSError, ValueError):  # a name that no file can have
+            return None
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,6 +14,7 @@ from checker.rendering import failure_text
 from checker.report.sentences import missions, percent
 from checker.sampling.rendering import number
 from checker.sampling.sampler import RANDOM_POINT
+from nddl_lang.text.values import json_value
 from nddlc.check import STORE
 from nddlc.inputs import Unusable
 
@@ -77,7 +78,7 @@ def _trialled(result: MissionResult) -> Trialled:
 def _reported(path: Path) -> dict[Mission, Trialled]:
     """The missions of a report; only plain random ones are known by their seed alone."""
     try:
-        listed = json.loads(path.read_text(encoding="utf-8"))["missions"]
+        listed = json_value(path.read_text(encoding="utf-8"))["missions"]
         point = write_point(RANDOM_POINT)
         return {
             (int(one["seed"]), point): Trialled(

@@ -1,11 +1,11 @@
 """`nddlc replay`: fly the mission of a trace again, and say where it departs."""
 
-import json
 from pathlib import Path
 
 import click
 
 from checker.one_flight import first_departure, fly, read_trace
+from nddl_lang.text.values import json_value
 from nddlc.inputs import Unusable, readable
 from nddlc.one_mission import prepare
 from nddlc.trust import trust_option
@@ -48,7 +48,7 @@ def _shown(line: str) -> str:
     if not line:
         return "nothing"
     try:
-        event = json.loads(line)
+        event = json_value(line)
         inside = ", ".join(f"{name}={value}" for name, value in event["arguments"].items())
         what = f"{event['predicate']}({inside})" if inside else event["predicate"]
         parts = (f"tick {event['tick']}", event["reactor"], event["kind"], event["timeline"], what)

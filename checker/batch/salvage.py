@@ -87,9 +87,8 @@ def _runs(connection: sqlite3.Connection) -> list[Run]:
     found: dict[int, Run] = {}
     for order in ("ASC", "DESC"):
         query = f"SELECT turn, id, mission_file, seed, missions, sampler FROM runs ORDER BY turn {order}"
-        rows = connection.execute(query)
         try:
-            for turn, *values in rows:
+            for turn, *values in connection.execute(query):
                 if all(isinstance(each, kind) for each, kind in zip(values, (str, str, int, int, str), strict=True)):
                     found[turn] = Run(*values)
         except sqlite3.Error:

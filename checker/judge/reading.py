@@ -7,6 +7,7 @@ from typing import Any
 
 from checker.judge.written_values import TICK, DocumentError, TypedValues, unknown
 from compiler.program import PredicateCode, Program, TypeCode
+from nddl_lang.text.values import json_value
 from runtime.executive.record import (
     NOBODY,
     BodyRun,
@@ -31,7 +32,7 @@ _LOCAL = TypeCode("symbol", "symbol", None)  # any value will do
 def read_json(text: str, where: str = "it") -> Any:
     """A document out of its text."""
     try:
-        return json.loads(text, parse_constant=_refuse)
+        return json_value(text, _refuse)
     except json.JSONDecodeError as problem:
         raise DocumentError(
             f"{where} is no JSON: {problem.msg.lower()} at line {problem.lineno}, column {problem.colno}"

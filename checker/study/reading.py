@@ -11,7 +11,8 @@ from checker.mission_table import MissionText, Table
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.read import read_source
 from nddl_lang.text.source import Source
-from nddl_lang.text.toml_places import find_places, split_error, toml_of
+from nddl_lang.text.toml_places import find_places, split_error
+from nddl_lang.text.values import toml_value
 
 _DISTRIBUTIONS = ("uniform", "normal")
 _MODES = ("inter", "intra")
@@ -62,7 +63,7 @@ def read_study(path: Path) -> tuple[StudyFile | None, tuple[Diagnostic, ...]]:
     """Read the file at `path` (or raise OSError); None where a diagnostic is an error."""
     source = read_source(path)
     try:
-        values = tomllib.loads(toml_of(source.text))
+        values = toml_value(source.text)
     except tomllib.TOMLDecodeError as problem:
         return None, (_not_toml(source, str(problem)),)
     text = MissionText(source, find_places(source.text))
@@ -134,7 +135,7 @@ def _read_bug(table: Table, root: Path, file: str, title: str) -> tuple[str, tup
     """The title and the edits of a bug file, with files relative to the study."""
     span = table.text.value_span((*table.path, "file"))
     try:
-        bug = tomllib.loads((root / file).read_text(encoding="utf-8"))
+        bug = toml_value((root / file).read_text(encoding="utf-8"))
         edits = []
         for one in bug["edit"]:
             name = (root / file).parent.joinpath(str(one["file"])).resolve().relative_to(root.resolve()).as_posix()

@@ -1,6 +1,6 @@
 ;;; nddl-mode.el --- NDDL models by nddlc  -*- lexical-binding: t -*-
 
-;; Emacs 29 or newer, with the built-in Eglot.
+;; Emacs 29 or newer, with the built-in Eglot, or 28 with Eglot 1.9.
 
 ;;; Code:
 

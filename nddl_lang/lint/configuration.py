@@ -16,7 +16,8 @@ from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import NotAFileError, read_text, real_path
 from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import Path as Key
-from nddl_lang.text.toml_places import find_places, toml_of
+from nddl_lang.text.toml_places import find_places
+from nddl_lang.text.values import toml_value
 
 NAME = "nddlc.toml"
 PROJECT = "pyproject.toml"
@@ -44,7 +45,7 @@ def _has_section(path: Path) -> bool:
     if "nddlc" not in text:
         return False
     try:
-        return _section(tomllib.loads(toml_of(text)), None) is not None
+        return _section(toml_value(text), None) is not None
     except tomllib.TOMLDecodeError:
         return False  # for the tools of Python to complain about
 
@@ -63,7 +64,7 @@ def read_configuration(path: Path, text: str | None = None) -> tuple[Settings, l
         place = Span(Anchor(Source(str(path), "")), 0, 0)
         return Settings(), [NOT_TOML.at(place, reason=f"it cannot be read: {problem.strerror}")]
     try:
-        table = tomllib.loads(toml_of(source.text))
+        table = toml_value(source.text)
     except tomllib.TOMLDecodeError as problem:
         reason = str(problem)
         return Settings(), [NOT_TOML.at(Span(Anchor(source), 0, 0), reason=reason[:1].lower() + reason[1:])]

@@ -139,18 +139,21 @@ def _distance(symbols: SymbolTable, name: str, ancestor: str) -> int:
 
 def _lacking_base(symbols: SymbolTable, constructor: Constructor) -> Class | None:
     """The ancestor without empty constructor that an implicit constructor would have to call."""
-    while constructor.node is None:
+    if constructor.node is not None or symbols.is_partial(constructor.class_name):
+        return None
+    while True:
         owner = symbols.find_class(constructor.class_name)
         if owner is None or owner.is_native or owner.base is None:
             return None
         base = symbols.find_class(owner.base)
-        if base is None or symbols.is_partial(base.name):
+        if base is None:
             return None
         empty = next((item for item in base.constructors if not item.parameters), None)
         if empty is None:
             return base
+        if empty.node is not None:
+            return None
         constructor = empty
-    return None
 
 
 def _made_with(symbols: SymbolTable, class_name: str) -> list[str]:

@@ -252,12 +252,12 @@ class Schema:
 
     def ancestry(self, name: str) -> list[str]:
         """Class `name`, its base, and so on up to the root."""
-        chain: list[str] = []
+        chain: dict[str, None] = {}
         current: str | None = name
         while current is not None and current in self.classes and current not in chain:
-            chain.append(current)
+            chain[current] = None
             current = self.classes[current].base
-        return chain
+        return list(chain)
 
     def is_subclass(self, name: str, ancestor: str) -> bool:
         """Whether class `name` is `ancestor` or extends it."""

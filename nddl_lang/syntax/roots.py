@@ -90,7 +90,7 @@ def model_meant(name: str, folder: Path, library: Path | None = None) -> str | N
         found += _models_in(library)
     stems = [path.stem for path in found]
     meant = Path(name).stem if Path(name).stem in stems else nearest(Path(name).stem, stems)
-    return None if meant is None else str(Path(name).with_name(f"{meant}.nddl"))
+    return None if meant is None else str(Path(name).parent / f"{meant}.nddl")
 
 
 def _models_in(folder: Path) -> list[Path]:

@@ -46,7 +46,7 @@ def read_text(path: Path) -> str | None:
         kind = os.fstat(file)
         if not stat.S_ISREG(kind.st_mode):
             raise NotAFileError(0, f"it is {kind_of(kind.st_mode)}, not a file", str(path))
-        return decode(_bounded(opened.read(LARGEST + 1), path))
+        return decode(_bounded(opened.read(LARGEST + 1) or b"", path))
 
 
 def read_source(path: Path | str) -> Source:

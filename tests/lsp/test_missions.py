@@ -165,6 +165,58 @@ def test_a_place_is_found_in_any_text(text: str) -> None:
         assert 0 <= place.begin <= place.finish <= len(text)
 
 
+SHAPED = """\
+# Two legs
+# of a survey.
+[mission]
+name = "survey"
+
+[[reactor]]
+name = "planner"
+model = "model.nddl"  # not "other.nddl"
+internal = [
+  "gps",  # [
+]
+[reactor.early]
+a = 1
+[[goal]]
+timeline = "gps"
+predicate = "Busy"
+[goal.parameters]
+hits = 3
+
+# The end.
+[constraints]
+modules = ["own.py", "gone.py"]
+"""
+
+
+def test_the_shape_of_a_mission_file_is_shown(opened: Any, tmp_path: Path) -> None:
+    client, uri, model = opened
+    (tmp_path / "own.py").touch()
+    client.change(uri, {"text": SHAPED.replace("\n", "\r\n")})
+    about = {"textDocument": {"uri": uri}}
+
+    def shown(symbols: list[Any]) -> list[Any]:
+        return [
+            (each["name"], place["start"]["line"], *place["end"].values(), shown(each.get("children", [])))
+            for each in symbols
+            for place in (each["range"],)
+        ]
+
+    assert shown(client.ask("textDocument/documentSymbol", **about)) == [
+        ("mission survey", 2, 3, 15, []),
+        ("reactor planner", 5, 12, 5, [("reactor.early", 11, 12, 5, [])]),
+        ("goal gps.Busy", 13, 17, 8, [("goal.parameters", 16, 17, 8, [])]),
+        ("constraints", 20, 21, 31, []),
+    ]
+    folds = [(each["startLine"], each["endLine"]) for each in client.ask("textDocument/foldingRange", **about)]
+    assert folds == [(0, 1), (2, 3), (5, 10), (8, 10), (11, 12), (13, 15), (16, 17), (20, 21)]
+    links = [(each["range"]["start"], each["target"]) for each in client.ask("textDocument/documentLink", **about)]
+    own = (tmp_path / "own.py").as_uri()
+    assert links == [({"line": 7, "character": 9}, model), ({"line": 21, "character": 12}, own)]
+
+
 def test_lenses_offer_to_fly_missions(opened: Any) -> None:
     client, uri, _ = opened
     found = client.ask("textDocument/codeLens", textDocument={"uri": uri})

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source, Span
-from nddl_lang.text.toml_places import Path, find_places, split_error, toml_of
+from nddl_lang.text.toml_places import Path, find_places, split_error
+from nddl_lang.text.values import toml_value
 from runtime.solver.configuration.codes import NOT_READABLE, UNKNOWN_ELEMENT
 from runtime.solver.configuration.element import Attribute, Element, stretch
 
@@ -15,7 +16,7 @@ _Table = dict[str, object]
 def read_toml(source: Source) -> tuple[Element | None, list[Diagnostic]]:
     """The root element of `source`, or a diagnostic that says where the text is no TOML or no configuration."""
     try:
-        table = tomllib.loads(toml_of(source.text))
+        table = toml_value(source.text)
     except tomllib.TOMLDecodeError as error:
         reason, at = split_error(source, str(error))
         return None, [NOT_READABLE.at(stretch(source, at, at + 1), reason=reason)]
