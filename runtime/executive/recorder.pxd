@@ -61,7 +61,7 @@ cdef class Recorder:
     @cython.locals(engine=Engine, i="long long", inputs="long long", rows=Rows)
     cpdef bint _is_decided(self, long long g) except -1
 
-    cpdef long long _child(self, long long t, long long parent, long long key) except? -1
+    cpdef long long _child(self, long long t, long long s, long long key) except? -1
 
     cpdef long long _shape(self, long long v) except? -1
 

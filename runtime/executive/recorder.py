@@ -220,7 +220,7 @@ class Recorder:
                 named = tuple([self.value(cells[frame + slot], shape) for slot, shape in form.locals])
             if form.children:
                 first = frame + rows.scope_slots[s]
-                children = tuple([self._child(cells[first + slot], rows.scope_token[s], key) for slot in form.children])
+                children = tuple([self._child(cells[first + slot], s, key) for slot in form.children])
         guards: tuple[GuardRun, ...] = ()
         if s in inner:
             guards = tuple([self._guard(g, key, form, k, inner) for k, g in enumerate(inner[s])])
@@ -241,8 +241,9 @@ class Recorder:
         given = range(inputs + 2, inputs + 2 + rows.cells[inputs])
         return not [i for i in given if not engine.is_decided(rows.cells[i])]
 
-    def _child(self, t: int, parent: int, key: int) -> int:
-        if t >= 0 and self.rows.parent[t] == parent and self.rows.status[t] != FREED:
+    def _child(self, t: int, s: int, key: int) -> int:
+        # The row of a child that is gone may be free, or by now another child's.
+        if t >= 0 and self.rows.creator[t] == s and self.rows.status[t] != FREED:
             return int(self.rows.key[t])
         return self.gone.get((key, t), NOBODY)
 
