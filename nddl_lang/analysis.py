@@ -14,7 +14,7 @@ from nddl_lang.semantics.schema import Schema, SideTables
 from nddl_lang.semantics.scope import Context, Deferred, names_in
 from nddl_lang.semantics.statement import check_statement
 from nddl_lang.semantics.symbol_table import Entry, SymbolTable, told
-from nddl_lang.syntax.codes import MISSING_FILE, TOO_DEEP, UNREADABLE_FILE
+from nddl_lang.syntax.codes import MISSING_FILE, TOO_DEEP, UNCLOSED_COMMENT, UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import LoadedModules, load_module_graph
 from nddl_lang.syntax.nodes import (
@@ -32,7 +32,7 @@ from nddl_lang.syntax.nodes import (
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.source import Source, Span
 
-_TEXT_IS_MISSING = (MISSING_FILE, UNREADABLE_FILE, TOO_DEEP)
+_TEXT_IS_MISSING = (MISSING_FILE, UNREADABLE_FILE, TOO_DEEP, UNCLOSED_COMMENT)
 _UNKNOWN = (UNKNOWN_NAME, UNKNOWN_TYPE, UNKNOWN_CLASS)
 _TABLES = tuple(table.name for table in fields(SideTables))
 

@@ -10,8 +10,8 @@ from nddl_lang.semantics.symbol_table import SymbolTable
 from nddl_lang.semantics.typenames import find_defined_class
 from nddl_lang.semantics.types import fits, object_type
 from nddl_lang.semantics.values import check_restriction
-from nddl_lang.syntax.nodes import Assignment, Expr, NewExpr
-from nddl_lang.text.diagnostic import Note
+from nddl_lang.syntax.nodes import Assignment, Expr, NewExpr, StringLiteral
+from nddl_lang.text.diagnostic import Edit, Fix, Note
 from nddl_lang.text.source import Span
 
 
@@ -83,11 +83,27 @@ def choose(
             described = ", ".join("?" if type_ is None else type_.name for type_ in types)
             text = f"that takes `({described})`" if types else "without arguments"
             notes = constructor_notes(owner)
-            context.complain(NO_CONSTRUCTOR.at(span, notes=notes, name=owner.name, arguments=text))
+            help_, fixes = _unquoted(context.symbols, owner, arguments)
+            complaint = NO_CONSTRUCTOR.at(span, notes=notes, help=help_, fixes=fixes, name=owner.name, arguments=text)
+            context.complain(complaint)
         return None
     for argument, parameter in zip(arguments, best.parameters, strict=True):
         check_restriction(context, argument, parameter.type, parameter.name)
     return best
+
+
+def _unquoted(symbols: SymbolTable, owner: Class, arguments: Sequence[Expr]) -> tuple[str | None, tuple[Fix, ...]]:
+    """What to do about a text where a constructor takes a value of an enumeration that has that name."""
+    for constructor in owner.constructors:
+        for argument, parameter in zip(arguments, constructor.parameters, strict=False):
+            if not isinstance(argument, StringLiteral) or parameter.type.kind is not Kind.ENUM:
+                continue
+            text = argument.value
+            enum = symbols.find_enum(parameter.type.base)
+            if enum is not None and text in enum.values:
+                fix = Fix(f"write `{text}`", (Edit(argument.span, text),), safe=False)
+                return f"`{text}` is a value of `{parameter.type.name}`: it stands without quotes", (fix,)
+    return None, ()
 
 
 def takes(symbols: SymbolTable, owner: Class, types: Sequence[Type | None]) -> bool:

@@ -236,6 +236,13 @@ def complain_unknown(
         context.complain(_with(UNKNOWN_NAME.at(name.span, name=word), help_, (fix,)))
     elif symbols.find_goal(word) is not None and scope.kind is not BlockKind.SCRIPT:
         context.complain(_with(UNKNOWN_NAME.at(name.span, name=word), TOKEN_OF_SCRIPT.format(name=word), ()))
+    elif (path := scope.unnamed(word)) is not None:
+        scope.doubt(word)
+        after = Span(path.span.anchor, path.span.end, path.span.end)
+        fix = Fix(f"name the token `{word}`", (Edit(after, f" {word}"),), safe=False)
+        note = Note("a token is asked for here, without a name", path.span)
+        complaint = UNKNOWN_NAME.at(name.span, name=word, notes=(note,))
+        context.complain(_with(complaint, f"name the token: `{path.span.text} {word}`", (fix,)))
     elif (below := scope.declared_below(word) or symbols.declared_below(word)) is not None:
         note = Note(f"`{word}` is declared here; statements run in order", below)
         context.complain(DECLARED_BELOW.at(name.span, notes=(note,), name=word))

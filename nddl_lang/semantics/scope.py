@@ -17,7 +17,7 @@ from nddl_lang.semantics.schema import (
 )
 from nddl_lang.semantics.symbol_table import SymbolTable
 from nddl_lang.syntax.dialect import Dialect
-from nddl_lang.syntax.nodes import NewExpr, Relation, RuleDecl, RuleStatement, VariableDecl
+from nddl_lang.syntax.nodes import NewExpr, PathExpr, Relation, RuleDecl, RuleStatement, VariableDecl
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 
@@ -70,6 +70,7 @@ class Scope:
         "_later",
         "_lost",
         "_own",
+        "_unnamed",
         "_vague",
         "kind",
         "labels",
@@ -93,6 +94,7 @@ class Scope:
         self._later: dict[str, Span] = {}
         self._body: tuple[RuleStatement, ...] = ()
         self._vague: set[str] = set()
+        self._unnamed: dict[str, PathExpr] = {}
 
     def block(self) -> "Scope":
         """The scope of a block inside this one."""
@@ -104,6 +106,7 @@ class Scope:
         inner._later = self._later
         inner._body = self._body
         inner._vague = self._vague
+        inner._unnamed = self._unnamed
         return inner
 
     def leave(self) -> None:
@@ -129,6 +132,14 @@ class Scope:
             self._later.update(_declared_in(self._body))
             self._body = ()
         return self._later.get(name)
+
+    def ask_unnamed(self, path: PathExpr) -> None:
+        """Know that a token of this predicate is asked for without a name."""
+        self._unnamed.setdefault(path.parts[-1].name.casefold(), path)
+
+    def unnamed(self, name: str) -> PathExpr | None:
+        """What asks for a token without a name, for which people may well write `name`."""
+        return self._unnamed.get(name.casefold())
 
     def doubt(self, text: str) -> None:
         """Let the names in a text that was not understood be ones that it may have declared."""

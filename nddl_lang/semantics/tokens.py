@@ -143,6 +143,8 @@ def _check_instance(context: Context, scope: Scope, instance: Instance) -> Label
             label = None
     elif label is not None:
         scope.labels[label.name] = label
+    else:
+        scope.ask_unnamed(instance.path)
     context.tables.targets[instance] = Target(predicate, source, label)
     return label
 
@@ -162,7 +164,10 @@ def _find_token(context: Context, scope: Scope, name: Identifier) -> Label | Non
     elif context.symbols.find_goal(name.name) is not None:
         help_ = TOKEN_OF_SCRIPT.format(name=name.name)
         context.complain(UNKNOWN_TOKEN.at(name.span, help=help_, name=name.name))
-    elif any(is_known(name.name) for is_known in (scope.lost_at, scope.declared_below, context.symbols.declared_below)):
+    elif any(
+        is_known(name.name)
+        for is_known in (scope.lost_at, scope.unnamed, scope.declared_below, context.symbols.declared_below)
+    ):
         complain_unknown(context, scope, name)
     elif not scope.is_doubtful(name.name) and not context.symbols.is_doubtful(name.name):
         complaint = UNKNOWN_TOKEN.at(name.span, name=name.name)

@@ -44,6 +44,7 @@ _TURNED = {("-", ">"): ".", (":", "="): "=", ("=", ">"): ">=", ("=", "<"): "<=",
 _VALUE_ENDS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", ")", "]", "}"))
 _LISTS = frozenset(("(", "SET"))
 _LITERALS = frozenset(("INT", "FLOAT", "STRING", "BOOL"))
+_TYPES = frozenset(("BASETYPE", "filter"))
 _MODIFIERS = frozenset(("const", "constexpr", "static", "final", "var", "let"))
 _OPENERS = {")": "(", "]": "[", "}": "SET"}
 _OPEN = frozenset(("(", "[", "{", "SET"))
@@ -72,8 +73,10 @@ class Recovery:
             depth -= 1
         first = self._first_index(values[depth]) if depth < len(values) else index
         self._is_quiet = self._was_complained_about(first, index)
-        if self._turn_comparison(first, index) or (
-            not self._is_quiet and self._reread_word(states[: depth + 1], values[:depth], first, index)
+        if (
+            self._turn_comparison(first, index)
+            or self._end_declaration(first, index)
+            or (not self._is_quiet and self._reread_word(states[: depth + 1], values[:depth], first, index))
         ):
             del states[depth + 1 :]
             del values[depth:]
@@ -181,6 +184,20 @@ class Recovery:
         kinds[index] = b.texts[index] = sign
         b.starts[index] = b.starts[index - 1]
         b.remove(index - 1, index)
+        return True
+
+    def _end_declaration(self, first: int, index: int) -> bool:
+        """Read the comma before a type as the `;` that it was meant to be: `float metres, float weight;`."""
+        kinds = self._kinds
+        is_type = kinds[index] in _TYPES or kinds[index : index + 2] == ["IDENT", "IDENT"]
+        is_declared = kinds[first] in _TYPES or kinds[first : first + 2] == ["IDENT", "IDENT"]
+        if index - 1 <= first or kinds[index - 1] != "," or not is_type or not is_declared:
+            return False
+        if not self._is_quiet:
+            fix = Fix("write `;`", (Edit(self._b.at(index - 1), ";"),))
+            help_ = "each declaration of a type ends with `;`"
+            self._b.report(SUPERFLUOUS, self._b.at(index - 1), text=",", help=help_, fixes=(fix,))
+        kinds[index - 1] = self._b.texts[index - 1] = ";"
         return True
 
     def _reread_word(self, states: list[int], values: list[Any], first: int, index: int) -> bool:

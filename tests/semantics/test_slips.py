@@ -138,6 +138,8 @@ SLIPS = [
     ("predicate Surface { int minHits; }", "predicate Surface { int minHits = [0 10; }"),
     ("predicate Surface { int minHits; }", "predicate Surface { int minHits = [0..10]; }"),
     ("predicate Surface { int minHits; }", "predicate Surface { int: minHits; }"),
+    ("predicate Go      { float xa; float ya;", "predicate Go      { float xa, float ya;"),
+    ("predicate Go      { float xa; float ya;", "predicate Go      { float xa, Leg ya;"),
     ("predicate Surface { int minHits; }", "predicate Surface { int minHits; }}"),
 ]
 # Where something is left open to the end of its block, the message stands where it was opened.
@@ -178,3 +180,32 @@ def test_a_slip_costs_one_message_in_its_line(old: str, new: str) -> None:
 def test_what_is_left_open_costs_one_message_where_it_was_opened(old: str, new: str, opened: str) -> None:
     text, lines = complaints(old, new)
     assert lines == [text.count("\n", 0, text.index(opened)) + 1]
+
+
+def test_a_token_that_was_left_without_its_name_costs_one_message_that_tells_so() -> None:
+    path = FOLDER / "navigator.nddl"
+    text = path.read_text(encoding="utf-8").replace("contains(Helm.Run r);", "contains(Helm.Run);", 1)
+    text = (
+        text.replace("r.kind", "run.kind", 1).replace("r.tx", "run.tx", 1).replace("r.end == end", "end == run.end", 1)
+    )
+    found = analyse_text(str(path), text).diagnostics
+    first = next(each for each in found if each.severity is Severity.ERROR)
+    assert first.help == "name the token: `Helm.Run run`"
+    assert first.fixes[0].edits[0].text == " run"
+    assert not [each for each in found if "`run`" in each.message and each is not first]
+
+
+def test_an_unclosed_comment_in_an_included_file_costs_one_message(tmp_path: Path) -> None:
+    shared = (FOLDER / "auv_interface.nddl").read_text(encoding="utf-8")
+    (tmp_path / "auv_interface.nddl").write_text(shared.replace("// Shared", "/* Shared", 1), encoding="utf-8")
+    text = (FOLDER / "navigator.nddl").read_text(encoding="utf-8")
+    (found,) = analyse_text(str(tmp_path / "navigator.nddl"), text).diagnostics
+    assert found.message == "this comment is never closed"
+
+
+def test_a_value_in_quotes_where_a_constructor_takes_it_is_told() -> None:
+    path = FOLDER / "navigator.nddl"
+    text = path.read_text(encoding="utf-8")
+    text += 'Survey again = new Survey("Internal");\n'
+    (found,) = [each for each in analyse_text(str(path), text).diagnostics if each.severity is Severity.ERROR]
+    assert found.help == "`Internal` is a value of `Mode`: it stands without quotes"
