@@ -269,7 +269,8 @@ MISSION_PAGES = (
     ),
     RulePage(
         NO_EFFECT,
-        "An agent file of T-REX asks for something that nddlc does not have: `Plugin`, `synch_cfg`.",
+        "An agent file of T-REX asks for something that nddlc does not have (`Plugin`, `synch_cfg`), or the time of a "
+        "property (`by`) is after the end of the mission.",
         "The mission is flown without it.",
         '<Agent name="a" finalTick="90">\n  <EuropaReactor name="s" model="s.nddl" synch_cfg="sync.xml"/>\n</Agent>\n',
         '<Agent name="a" finalTick="90">\n  <EuropaReactor name="s" model="s.nddl" plan_cfg="plan.xml"/>\n</Agent>\n',

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 
-from checker.codes import ILL_VALUE, NO_ARGUMENT, NO_PREDICATE, NO_REACTOR, NO_RESOURCE
+from checker.codes import ILL_VALUE, NO_ARGUMENT, NO_EFFECT, NO_PREDICATE, NO_REACTOR, NO_RESOURCE, OUT_OF_RANGE
 from checker.goal_fit import strange_value
 from checker.judge.resources import resources_of
 from checker.mission import Mission
@@ -11,7 +11,7 @@ from checker.properties import names_of
 from compiler.program import PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
-from runtime.executive.configuration import LevelPattern, TokenPattern
+from runtime.executive.configuration import LevelPattern, PropertyConfiguration, TokenPattern
 
 _Path = tuple[str | int, ...]
 _TIMES = ("start", "end", "duration")
@@ -21,12 +21,24 @@ def property_misfits(mission: Mission, programs: Mapping[str, Program]) -> Itera
     """Complain of what a property says of tokens that can never be."""
     for number, one in enumerate(mission.agent.properties):
         path: _Path = ("property", number)
+        yield from _time_misfits(mission, one, path)
         if one.level is not None:
             yield from _level_misfits(mission, one.level, path, programs)
             continue
         yield from _pattern_misfits(mission, one.pattern, path, programs)
         if one.then is not None:
             yield from _pattern_misfits(mission, one.then, (*path, "then"), programs)
+
+
+def _time_misfits(mission: Mission, one: PropertyConfiguration, path: _Path) -> Iterator[Diagnostic]:
+    """Complain of times that no mission lasts to."""
+    final = mission.agent.final_tick
+    if 0 < final <= one.since:
+        wanted = f"before the end of the mission, {final}"
+        yield OUT_OF_RANGE.at(mission.text.value_span((*path, "from")), key="from", wanted=wanted, found=one.since)
+    if one.by is not None and 0 < final < one.by:
+        span = mission.text.value_span((*path, "by"))
+        yield NO_EFFECT.at(span, what=f"by = {one.by}", help=f"the mission ends at tick {final}")
 
 
 def _level_misfits(
