@@ -10,6 +10,8 @@ import pytest
 
 from tests.cli.measured import ROOT, Commands
 
+pytestmark = pytest.mark.once
+
 BLANK = ROOT / "models" / "templates" / "blank"
 MISSION = (BLANK / "mission.toml").read_text(encoding="utf-8")
 SECONDS, MEBIBYTES = 5, 1000
