@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from xml.parsers import expat
 
 from checker.codes import ILL_BATCH
+from nddl_lang.text.byte_places import BytePlaces
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Anchor, Source, Span
@@ -65,8 +66,8 @@ class _Reader:
         if body.startswith("<?xml") and "?>" in body:  # the root that is put around all must stand behind it
             self.head = body[: body.index("?>") + 2]
         skipped = source.text.index(body) + len(self.head) if body else 0
-        self.before = source.text[:skipped]
         self.encoded = b"<batch>" + source.text[skipped:].encode("utf-8", "surrogatepass") + b"</batch>"
+        self.places = BytePlaces(self.encoded, len(b"<batch>"), skipped)
         self.parser = expat.ParserCreate("utf-8")
         self.parser.StartElementHandler = self.start
         self.parser.EndElementHandler = self.end
@@ -76,9 +77,7 @@ class _Reader:
         self.root: _Node | None = None
 
     def span(self, width: int = 1) -> Span:
-        inside = max(0, self.parser.CurrentByteIndex - len(b"<batch>"))
-        read = self.encoded[len(b"<batch>") : len(b"<batch>") + inside].decode("utf-8", "replace")
-        begin = min(len(self.before) + len(read), len(self.anchor.source.text))
+        begin = min(self.places.place(self.parser.CurrentByteIndex), len(self.anchor.source.text))
         return Span(self.anchor, begin, min(begin + width, len(self.anchor.source.text)))
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:

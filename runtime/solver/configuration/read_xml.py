@@ -4,6 +4,7 @@ import re
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
+from nddl_lang.text.byte_places import BytePlaces
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source
 from runtime.solver.configuration.codes import FORBIDDEN_DOCTYPE, NOT_READABLE
@@ -30,6 +31,7 @@ class _Reader:
     def __init__(self, source: Source) -> None:
         self.source = source
         self.encoded = source.text.encode("utf-8", "surrogatepass")
+        self.places = BytePlaces(self.encoded)
         self.stack = [_Open("", (), 0)]
         self.parser = expat.ParserCreate("utf-8")
         self.parser.ordered_attributes = True
@@ -39,7 +41,7 @@ class _Reader:
 
     def offset(self) -> int:
         """Where the parser stands, in characters."""
-        return len(self.encoded[: self.parser.CurrentByteIndex].decode("utf-8", "replace"))
+        return self.places.place(self.parser.CurrentByteIndex)
 
     def start(self, tag: str, flat: list[str]) -> None:
         begin = self.offset()
