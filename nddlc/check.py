@@ -150,7 +150,7 @@ def command(
             progress=seeking,
             let=interruption,
         )
-    ended_by = flown.ended_by or interruption.ended_by
+    ended_by = flown.ended_by or interruption.first
     findings = replace(findings, is_stored=not no_store)
     if not no_store:
         _keep(findings, store_path)

@@ -38,28 +38,17 @@ class Cluster:
 
     def fly(self, batch: Batch, supervisor: Supervisor) -> signal.Signals | None:
         """Fly a batch, with as many workers as the cluster has."""
-        signals = _Signals()
+        signals = FirstSignals()
         with Client(self._address, timeout="30s") as client, signals:
             while batch.tasks and not supervisor.is_enough():
                 current = _Round(client, batch)
                 current.fly(supervisor, signals)
-                if signals.seen is not None or current.is_lost:
+                if signals.first is not None or current.is_lost:
                     break
                 batch = replace(batch, tasks=batch.more())
             with contextlib.suppress(OSError, TimeoutError):  # of a cluster that is gone there is nothing to end
                 client.run(_dismiss_all, on_error="ignore")
-        return signals.seen
-
-
-class _Signals(FirstSignals):
-    """Notes a signal that is to end the batch."""
-
-    def __init__(self) -> None:
-        self.seen: signal.Signals | None = None
-        super().__init__(self._note)
-
-    def _note(self, number: signal.Signals) -> None:
-        self.seen = self.seen or number
+        return signals.first
 
 
 class _Round:
@@ -79,10 +68,10 @@ class _Round:
         future = self._client.submit(_fly_chunk, batch.load, batch.agent, batch.time_limit, chunk, pure=False)
         self._futures[future] = chunk
 
-    def fly(self, supervisor: Supervisor, signals: _Signals) -> None:
+    def fly(self, supervisor: Supervisor, signals: FirstSignals) -> None:
         """Give each result to `supervisor` until all are there, or there are enough."""
         told = peopled = time.monotonic()  # when the last result came, and when there last was a worker
-        while self._futures and signals.seen is None and not supervisor.is_enough():
+        while self._futures and signals.first is None and not supervisor.is_enough():
             if sum(self._take(future, supervisor) for future in self._finished()):
                 told = peopled = time.monotonic()
                 continue

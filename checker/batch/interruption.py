@@ -17,13 +17,12 @@ class Interruption(FirstSignals):
     """Within this, the first Ctrl-C, SIGTERM or hang-up ends a search."""
 
     def __init__(self) -> None:
-        self.ended_by: signal.Signals | None = None
         self._is_searching = False
         super().__init__(self._note)
 
     def __call__(self, search: Callable[[], _Found]) -> _Found | None:
         """What a search finds; None where a signal has ended it, or came before."""
-        if self.ended_by is not None:
+        if self.first is not None:
             return None
         try:
             self._is_searching = True
@@ -35,9 +34,7 @@ class Interruption(FirstSignals):
             self._is_searching = False
         return found
 
-    def _note(self, number: signal.Signals) -> None:
-        if self.ended_by is None:
-            self.ended_by = number
+    def _note(self, _number: signal.Signals) -> None:
         if self._is_searching:
             raise InterruptedSearch
 

@@ -27,10 +27,12 @@ class Echo:
 class FirstSignals:
     """Within this, the first signal of each kind that ends things goes to `take`; the second does what it always did.
 
-    A hang-up that is ignored stays so (nohup). Outside the main thread, where no signal arrives, nothing changes.
+    `first` is the first of all. A hang-up that is ignored stays so (nohup). Outside the main thread, where no signal
+    arrives, nothing changes.
     """
 
-    def __init__(self, take: Callable[[signal.Signals], None]) -> None:
+    def __init__(self, take: Callable[[signal.Signals], None] | None = None) -> None:
+        self.first: signal.Signals | None = None
         self._take = take
         self._before: dict[int, Any] = {}
         self._taken: set[int] = set()
@@ -57,4 +59,6 @@ class FirstSignals:
             signal.raise_signal(number)
             return
         self._taken.add(number)
-        self._take(signal.Signals(number))
+        self.first = self.first or signal.Signals(number)
+        if self._take is not None:
+            self._take(signal.Signals(number))
