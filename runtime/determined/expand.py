@@ -64,6 +64,14 @@ class _Expansion:
 
     # ---- times ----
 
+    def columns(self) -> TokenColumns:
+        """All tokens, as they are read from what is noted here."""
+        program = self.program
+        predicates = program.model.program.predicates
+        names = [each.name for each in predicates] + [each.name for each in program.model.lines]
+        kinds = [tuple([parameter.type.kind for parameter in each.parameters]) for each in predicates]
+        return TokenColumns(self.times(), names, kinds, self.values, program.all_names(), self.groups, self.token)
+
     def times(self) -> TokenTimes:
         """What all tokens have."""
         program, count = self.program, self.walk.count
@@ -308,12 +316,7 @@ def _rows_until(machine: Machine, tick: int) -> int:
 
 def expand(program: RegisterProgram, machine: Machine, tick: int) -> TokenColumns:
     """The tokens that a machine has executed up to `tick`, where it stands."""
-    expansion = _Expansion(program, machine, tick)
-    predicates = program.model.program.predicates
-    names = [each.name for each in predicates] + [each.name for each in program.model.lines]
-    kinds = [tuple([parameter.type.kind for parameter in each.parameters]) for each in predicates]
-    store, symbols = expansion.values, program.all_names()
-    return TokenColumns(expansion.times(), names, kinds, store, symbols, expansion.groups, expansion.token)
+    return _Expansion(program, machine, tick).columns()
 
 
 def record_of(frame: ReactorRecord, name: str, tokens: TokenColumns, tick: int) -> ReactorRecord:

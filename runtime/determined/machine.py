@@ -371,7 +371,8 @@ class Machine:
                 return False
             if present.state[DUE * n + line] >= 0 and not present.changed >> line & 1:
                 return False  # what is due there has not been taken yet
-            return bool(present.follow(line, a, block))
+            present.follow(line, a, block)
+            return True
         if op == 39:  # TIE
             present.tie(line, a)
             return True
@@ -390,4 +391,5 @@ class Machine:
         if not -_LARGEST < value < _LARGEST or value != math.floor(value):
             return False
         bound = int(value)
-        return bool(present.bound(line, bound, op != 38, op != 37))  # LAST_EXACTLY, LAST_LEAST, LAST_MOST
+        present.bound(line, bound, op != 38, op != 37)  # LAST_EXACTLY, LAST_LEAST, LAST_MOST
+        return True

@@ -44,9 +44,9 @@ cdef class Present:
     @cython.locals(moved="bint")
     cpdef bint order_ends(self, long long a, long long b) except -1
 
-    cpdef bint bound(self, long long i, long long duration, bint is_least, bint is_most) except -1
+    cpdef int bound(self, long long i, long long duration, bint is_least, bint is_most) except -1
 
-    cpdef bint follow(self, long long i, long long owner, long long block) except -1
+    cpdef int follow(self, long long i, long long owner, long long block) except -1
 
     cpdef int tie(self, long long a, long long b) except -1
 

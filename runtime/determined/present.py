@@ -332,7 +332,7 @@ class Present:
             moved = self.state[MOST * n + second] >= self.state[LEAST * n + second]
         return moved
 
-    def bound(self, i: int, duration: int, is_least: bool, is_most: bool) -> bool:
+    def bound(self, i: int, duration: int, is_least: bool, is_most: bool) -> int:
         """Bound the duration of a token from below, from above, or both."""
         n = self.lines
         slot = self.state[SLOT * n + i]
@@ -343,15 +343,15 @@ class Present:
             self.state[LEAST * n + slot] = end
         if is_most and end < self.state[MOST * n + slot]:
             self.state[MOST * n + slot] = end
-        return True
+        return 0
 
-    def follow(self, i: int, owner: int, block: int) -> bool:
+    def follow(self, i: int, owner: int, block: int) -> int:
         """Let a token of a block follow on a timeline as soon as the token of `owner` ends."""
         if i != self.steady or i != owner:
             self.steady = NONE
         self.state[FOLLOWER * self.lines + i] = block
         self.state[OWNER * self.lines + i] = owner
-        return True
+        return 0
 
     def tie(self, a: int, b: int) -> int:
         """Let the tokens of two timelines end together."""

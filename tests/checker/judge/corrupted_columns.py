@@ -22,6 +22,7 @@ from runtime.determined import reactor
 from runtime.determined.expand import _Expansion
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
+from runtime.determined.tags import KIND, VALUES
 from runtime.executive.columns import TokenColumns
 from runtime.executive.mission import record_mission
 from runtime.executive.outcome import Outcome
@@ -31,17 +32,7 @@ from tests.programs import programs_of
 
 FILES = (INL, INL.parents[1] / "front/mission.toml", GPS)
 UNTIL = 400
-_START, _LINE, _PREDICATE, _BLOCK, _VALUES = range(5)  # of a row of the log
-
-
-def _columns(expansion: _Expansion) -> TokenColumns:
-    """What `expand` makes of a walk over a log."""
-    program = expansion.program
-    predicates = program.model.program.predicates
-    names = [each.name for each in predicates] + [each.name for each in program.model.lines]
-    kinds = [tuple([parameter.type.kind for parameter in each.parameters]) for each in predicates]
-    symbols = program.all_names()
-    return TokenColumns(expansion.times(), names, kinds, expansion.values, symbols, expansion.groups, expansion.token)
+_START = 0  # of a row of the log
 
 
 class Flight(NamedTuple):
@@ -66,7 +57,7 @@ def flight(path: Path, seed: int) -> Flight:
 
     def catching(program: RegisterProgram, machine: Machine, tick: int) -> TokenColumns:
         caught.append((program, machine, tick))
-        return _columns(_Expansion(program, machine, tick))
+        return _Expansion(program, machine, tick).columns()
 
     mission, _ = read_mission(path)
     assert mission is not None
@@ -102,12 +93,12 @@ def corrupt(expansion: _Expansion, dice: Random) -> str:
             walk.child_keys[at] = int(expansion.all_keys[dice.randrange(len(expansion.all_keys))])
         case "merge" if len(expansion.merged):
             at = dice.randrange(len(expansion.merged))
-            if rows[row, _PREDICATE] == rows[expansion.merged[at, 2], _PREDICATE]:
+            if rows[row, KIND] == rows[expansion.merged[at, 2], KIND]:
                 expansion.merged[at, 2] = row
         case _:
             other = dice.randrange(count)
-            if rows[row, _PREDICATE] == rows[other, _PREDICATE]:
-                rows[row, _VALUES] = rows[other, _VALUES]
+            if rows[row, KIND] == rows[other, KIND]:
+                rows[row, VALUES] = rows[other, VALUES]
     return kind
 
 
@@ -119,10 +110,10 @@ def compare(flown: Flight, dice: Random) -> tuple[str, bool, bool]:
     expansion = _Expansion(program, machine, tick)
     try:
         kind = corrupt(expansion, dice)
-        quick = flown.report(_columns(expansion))
+        quick = flown.report(expansion.columns())
         with pytest.MonkeyPatch.context() as patched:
             patched.setattr(judge, "_FEWEST", 10**9)
-            single = flown.report(tuple(_columns(expansion)))
+            single = flown.report(tuple(expansion.columns()))
     finally:
         for index, value in enumerate(kept[0]):
             log.values[index] = value
