@@ -4,7 +4,6 @@ A result counts as long as the texts of the model read as they did when the miss
 as stale: at the line that it was about, where that still stands, with less weight.
 """
 
-import json
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -24,6 +23,7 @@ from lsprotocol.types import (
 from lsp.documents import Documents
 from lsp.uris import key_of
 from nddl_lang.text.read import read_text
+from nddl_lang.text.values import json_value
 
 REPORT = Path("nddlc-report") / "report.json"
 _FORMAT = "nddlc-report/1"
@@ -65,7 +65,7 @@ class CheckResults:
         try:
             if report.stat().st_size > _LARGEST:
                 return False
-            data = json.loads(report.read_text(encoding="utf-8"))
+            data = json_value(report.read_text(encoding="utf-8"))
             made = report.stat().st_mtime_ns
         except (OSError, ValueError):
             return False

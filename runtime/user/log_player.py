@@ -1,10 +1,10 @@
 """A reactor that does again what one did in a flight of which there is a trace, or a log of T-REX (T-REX 3.3)."""
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from nddl_lang.text.values import json_value
 from runtime.user.reactor import Argument, Now, Reactor, Ticks, Value
 from runtime.user.transaction_log import SUFFIX, read_transaction_log
 
@@ -24,7 +24,7 @@ class LogPlayer(Reactor):
         if trace.name.endswith(SUFFIX):
             found: list[dict[str, Any]] = list(read_transaction_log(trace).events)
         else:
-            found = [json.loads(line) for line in trace.read_text(encoding="utf-8").splitlines()]
+            found = [json_value(line) for line in trace.read_text(encoding="utf-8").splitlines()]
             found = [event for event in found if event.get("reactor") == settings["reactor"]]
         own = str(settings["timelines"]).split(",") if "timelines" in settings else None
         for event in found:
