@@ -2,10 +2,12 @@
 
 cimport cython
 from runtime.executive.reactor cimport TeleoReactor
+from runtime.executive.trace cimport Trace
 
 
 cdef class Agent:
-    cdef public object configuration, poster, trace
+    cdef public object configuration, poster
+    cdef public Trace trace
     cdef public bint every_tick
     cdef public list reactors, ahead, awake, killed, stirred
     cdef public dict owners, users, senders, takers, made

@@ -219,7 +219,8 @@ class Agent:
         """Who comes next; of equal ones the first."""
         if len(busy) == 1:
             return busy[0]
-        first, most = busy[0], busy[0].urgency(self.tick)
+        first = busy[0]
+        most = first.urgency(self.tick)
         for reactor in busy[1:]:
             urgency = reactor.urgency(self.tick)
             if urgency > most:

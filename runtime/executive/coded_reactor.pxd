@@ -2,6 +2,7 @@
 
 cimport cython
 from runtime.executive.reactor cimport TeleoReactor
+from runtime.user.reactor cimport Now
 
 cdef long long _NEVER
 
@@ -18,12 +19,12 @@ cdef class CodedReactor(TeleoReactor):
 
     cpdef object notify(self, observation)
 
-    @cython.locals(arguments=dict, told=list)
+    @cython.locals(arguments=dict, now=Now, told=list)
     cpdef object synchronise(self, long long tick)
 
-    cpdef object _call(self, now)
+    cpdef object _call(self, Now now)
 
-    cpdef object _take(self, now)
+    cpdef object _take(self, Now now)
 
     cpdef list observations(self, long long tick)
 

@@ -78,11 +78,10 @@ class Deferral:
         for _, _, each, end, is_kept in found:
             if is_kept:
                 self._observe(self.lines[each.timeline], each, end)
-            else:
-                gone.append(self._pass(self.lines[each.timeline], each, end))
+            elif (one := self._pass(self.lines[each.timeline], each, end)) is not None:
+                gone.append(one)
         for one in gone:
-            if one.predicate in self.past.predicates:
-                self.past.put_back(one)
+            self.past.put_back(one)
         self.waiting.clear()
         return last
 
@@ -107,8 +106,11 @@ class Deferral:
         assert holds, "an observation that cannot matter contradicts the plan"
         line.current, line.event, line.source = fact, observation.event, observation
 
-    def _pass(self, line: TimelineState, observation: Observation, end: int) -> OverToken:
-        """Put an observation on record that begins, and at `end` is over, without entering the plan."""
+    def _pass(self, line: TimelineState, observation: Observation, end: int) -> OverToken | None:
+        """Put an observation on record that begins, and at `end` is over, without entering the plan.
+
+        Gives what rules may look back at of it.
+        """
         predicate = line.predicates[observation.predicate]
         name = self.bench.predicate_name(predicate)
         key = take_key(self.bench.plan)
@@ -121,6 +123,8 @@ class Deferral:
         times = (end - begun, begun, end)
         fields = (key, name, line.name, "active", *times, tuple(values), NOBODY, "observation", "over", end, ())
         self.passed.append(make_tuple(TokenRecord, fields))
+        if predicate not in self.past.predicates:
+            return None
         return OverToken(NOTHING, key, predicate, line.object_id, begun, end, observation.arguments)
 
     # ---- what cannot matter ----

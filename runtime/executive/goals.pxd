@@ -1,1 +1,29 @@
-# `goals.py` is compiled as it is.
+# The C types of `goals.py`.
+
+cimport cython
+from runtime.executive.dispatch cimport Dispatch
+from runtime.executive.timelines cimport Goal, TimelineState
+from runtime.executive.workbench cimport Workbench
+
+cdef long long NOTHING, SPAN_REQUEST
+
+
+cdef class Goals:
+    cdef public str name
+    cdef public Workbench bench
+    cdef public object trace, repair
+    cdef public list timelines, waiting, posted, to_recall, refusals, given_up
+    cdef public dict lines, rejections
+    cdef public bint is_changed
+
+    @cython.locals(goal=Goal, is_rejected=bint)
+    cpdef object report_rejected(self, long long tick)
+
+    @cython.locals(bench=Workbench, found=bint, goal=Goal, late=list, token="long long")
+    cpdef bint close(self, long long tick, Dispatch asked) except -1
+
+    @cython.locals(found=list, goal=Goal)
+    cpdef list live(self)
+
+    @cython.locals(goal=Goal)
+    cpdef Goal for_token(self, long long token)

@@ -168,13 +168,12 @@ class Goals:
 
     def missed(self) -> list[int]:
         """The goals that the planner has just rejected, whoever asked."""
-        return [
-            goal.token
-            for goal in self.posted
-            if not (goal.is_closed or goal.is_rejected)
-            and self.bench.is_alive(goal.token, goal.token_key)
-            and self.bench.is_rejected(goal.token)
-        ]
+        found = []
+        for goal in self.posted:
+            if not (goal.is_closed or goal.is_rejected) and self.bench.is_alive(goal.token, goal.token_key):
+                if self.bench.is_rejected(goal.token):
+                    found.append(goal.token)
+        return found
 
     def report_rejected(self, tick: int) -> None:
         """Tell once of each goal that the planner found no place for; it may come back when there is room."""
@@ -275,7 +274,11 @@ class Goals:
 
     def live(self) -> list[Goal]:
         """Goals that still may be met."""
-        return [goal for goal in self.posted if not goal.is_closed]
+        found = []
+        for goal in self.posted:
+            if not goal.is_closed:
+                found.append(goal)
+        return found
 
     def for_token(self, token: int) -> Goal | None:
         """The goal that a token of the plan is, or stands for."""

@@ -1,6 +1,7 @@
 # The C types of `holding.py`.
 
 cimport cython
+from runtime.constraints.domains.sparse_set cimport SparseSet
 from runtime.constraints.engine cimport Engine
 from runtime.executive.workbench cimport Workbench
 from runtime.plan.store.plan cimport Plan
@@ -13,7 +14,7 @@ cpdef bint is_blocked(Workbench bench, long long t, long long current, long long
 @cython.locals(engine=Engine, mark="long long", may_wait=bint)
 cpdef bint is_tied(Workbench bench, long long end, long long start) except -1
 
-@cython.locals(e="long long", ends=list, engine=Engine, first="long long", seen=set, stack=list, v="long long")
+@cython.locals(e="long long", ends=list, engine=Engine, first="long long", i="long long", met=SparseSet, v="long long")
 cpdef bint _follows_awaited(Workbench bench, long long t, long long current, long long tick) except -1
 
 @cython.locals(_="long long", engine=Engine, is_own=bint, plan=Plan, support="long long", v="long long")
@@ -22,5 +23,7 @@ cpdef bint _is_held_back(Workbench bench, long long t, long long tick) except -1
 @cython.locals(other="long long", plan=Plan)
 cpdef bint _is_awaited(Workbench bench, long long v, long long t, long long current, long long tick) except -1
 
-@cython.locals(after="long long", e="long long", ended="long long", engine=Engine, seen=set, stack=list)
+@cython.locals(
+    after="long long", begins="long long", e="long long", ended="long long", engine=Engine, i="long long", met=SparseSet
+)
 cpdef bint _ends_with(Workbench bench, long long v, long long t) except -1

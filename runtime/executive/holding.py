@@ -29,21 +29,22 @@ def is_tied(bench: Workbench, end: int, start: int) -> bool:
 
 def _follows_awaited(bench: Workbench, t: int, current: int, tick: int) -> bool:
     """Whether edges demand that `t` begins after a token of another reactor has ended."""
-    engine = bench.engine
+    engine, met = bench.engine, bench.met
     first = bench.start(t)
-    seen = {first}
-    stack = [first]
+    met.empty(engine.variables)
+    met.add(first)
     ends = []
-    while stack:
-        e = engine.out_head[stack.pop()]
+    i = 0
+    while i < met.count:
+        e = engine.out_head[met.items[i]]
         while e >= 0:
             v = engine.edge_target[e]
-            if engine.edge_weight[e] <= 0 and v not in seen and engine.upper(v) > tick:
+            if engine.edge_weight[e] <= 0 and not met.has(v) and engine.upper(v) > tick:
                 if _is_awaited(bench, v, t, current, tick) and not _ends_with(bench, v, t):
                     ends.append(v)
-                seen.add(v)
-                stack.append(v)
+                met.add(v)
             e = engine.out_next[e]
+        i += 1
     while ends and is_tied(bench, ends[len(ends) - 1], first):
         ends.pop()
     return len(ends) > 0
@@ -79,13 +80,15 @@ def _ends_with(bench: Workbench, v: int, t: int) -> bool:
     ended = bench.stands_for(bench.plan.variable_owner[v])
     if (after := bench.following(ended)) < 0 or bench.key(ended) in bench.asked:
         return False
-    engine, seen, stack = bench.engine, {bench.start(after)}, [bench.start(after)]
-    while stack:
-        e = engine.out_head[stack.pop()]
+    engine, met, begins = bench.engine, bench.met_behind, bench.start(t)
+    met.empty(engine.variables)
+    met.add(bench.start(after))
+    i = 0
+    while i < met.count and not met.has(begins):
+        e = engine.out_head[met.items[i]]
         while e >= 0:
-            v = engine.edge_target[e]
-            if engine.edge_weight[e] <= 0 and v not in seen:
-                seen.add(v)
-                stack.append(v)
+            if engine.edge_weight[e] <= 0:
+                met.add(engine.edge_target[e])
             e = engine.out_next[e]
-    return bench.start(t) in seen
+        i += 1
+    return met.has(begins)

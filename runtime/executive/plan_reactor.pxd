@@ -4,6 +4,7 @@ cimport cython
 from runtime.executive.clock cimport next_reading
 from runtime.executive.deferral cimport Deferral
 from runtime.executive.dispatch cimport Dispatch
+from runtime.executive.goals cimport Goals
 from runtime.executive.holding cimport is_blocked
 from runtime.executive.past cimport Past
 from runtime.executive.planning cimport Planner
@@ -21,7 +22,8 @@ cdef class PlanReactor(TeleoReactor):
     cdef public Workbench bench
     cdef public Planner planner
     cdef public Dispatch dispatch
-    cdef public object trace, draws, max_steps, goals, broken
+    cdef public object trace, draws, max_steps, broken
+    cdef public Goals goals
     cdef public Deferral deferral
     cdef public Past past
     cdef public list timelines

@@ -1,6 +1,7 @@
 # The C types of `view.py`.
 
 cimport cython
+from runtime.constraints.domains.sparse_set cimport SparseSet
 from runtime.constraints.engine cimport Engine
 from runtime.executive.recorder cimport Recorder
 from runtime.executive.timelines cimport TimelineState
@@ -23,6 +24,7 @@ cdef class PlanView:
     cdef public set external_objects, internal_objects, late_objects
     cdef public Recorder recorder
     cdef public long long[::1] kept_key
+    cdef public SparseSet met, met_behind
 
     @cython.locals(o="long long")
     cpdef TimelineState timeline(self, str name, bint is_internal)

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from math import inf
 
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START, DomainConstant
+from runtime.constraints.domains.sparse_set import SparseSet
 from runtime.constraints.domains.tags import KIND_BOOL, KIND_FLOAT, KIND_INT, KIND_STRING
 from runtime.executive.messages import Arguments
 from runtime.executive.recorder import Recorder
@@ -61,6 +62,7 @@ class PlanView:
         self.recorder = Recorder(database, name)
         self.kept_key = array("q", [NONE]) * 64  # by row: the key of a token that is over and stays without its rules
         self.internal_objects: set[int] = set()
+        self.met, self.met_behind = SparseSet(256), SparseSet(256)  # the variables that a walk has met, until the next
         self.late_objects: set[int] = set()  # timelines on which what nobody asked for begins as late as it may
 
     # ---- names ----

@@ -240,7 +240,7 @@ class Workbench(PlanView):
         for line in timelines:
             if line.current >= 0:
                 kept.add(line.current)
-                kept.add(int(self.rows.link_before[LISTS * line.current + LIST_ORDER]))
+                kept.add(self.rows.link_before[LISTS * line.current + LIST_ORDER])
         over = []
         rows = self.rows
         for t in range(rows.token_count):

@@ -230,6 +230,30 @@ def test_bounds_that_a_retraction_pulled_are_explained_later() -> None:
     assert {cause.span for cause in engine.explain()} >= {2, 3, 6}
 
 
+def test_what_is_removed_is_not_relaxed_and_its_numbers_are_as_good_as_new() -> None:
+    engine = Engine()
+    kept = engine.new_interval(tags.KIND_INT, 0, 100, 0, -1)
+    numbers = set()
+    for turn in range(3):
+        first, second = (engine.new_interval(tags.KIND_INT, 0, 100, 0, -1) for _ in range(2))
+        numbers |= {first, second}
+        engine.add_edge(first, second, 1, 0, -1)
+        engine.add_edge(second, kept, 1, 0, -1)
+        engine.restrict_base(first, 0, 10 + turn, 0, -1)
+        limit = engine.newest_restriction
+        assert engine.propagate()
+        engine.commit()
+        assert engine.upper(kept) == 12 + turn
+        assert engine.retract(restrictions=[limit]) and engine.upper(second) == engine.upper(kept) == 100
+        engine.restrict_base(first, 0, 10 + turn, 0, -1)
+        assert engine.propagate()
+        engine.commit()
+        assert engine.upper(kept) == 12 + turn
+        assert engine.retract(variables=[first, second]) and engine.upper(kept) == 100
+        assert engine.cone_count == 1
+    assert len(numbers) == 2
+
+
 def test_taking_a_relation_out_of_a_long_chain_touches_its_cone_only() -> None:
     engine = Engine()
     length, station = 10_000, 100

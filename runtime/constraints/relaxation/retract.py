@@ -1,7 +1,7 @@
 """Retraction at level 0: remove constraints, edges, restrictions and variables in any order; relax what they support.
 
 The bounds of the cone (cone.py) go back to their base and are tightened along the remaining edges; what touches them
-is propagated again. Cost: the cone and its neighbours.
+is propagated again. Cost: what is removed, the cone and its neighbours.
 """
 
 import math
@@ -32,6 +32,8 @@ from runtime.constraints.relaxation.cone import close_cone, relax_by, relax_by_c
 from runtime.constraints.relaxation.trail import clear_queues, commit_trail
 from runtime.constraints.stn.network import attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
 
+_WHOLE = 7  # both bounds, and a bit set
+
 
 def retract(
     s: Store, constraints: list[int], edges: list[int], restrictions: list[int], variables: list[int]
@@ -48,6 +50,8 @@ def retract(
     s.conflict_kind = 0
     s.visits_begun += 1
     s.cone_count = 0
+    for v in variables:
+        s.relaxed[v] = _WHOLE  # what goes stays out of the cone: all that it supports is touched by what goes with it
     doomed = _gather(s, constraints, variables)
     for e in edges:
         relax_by_edge(s, e)
@@ -92,6 +96,7 @@ def retract(
     for v in variables:
         while s.restriction_head[v] >= 0:
             drop_restriction(s, s.restriction_head[v])
+        s.relaxed[v] = 0
         drop_variable(s, v)
     _renew_cone(s)
     commit_trail(s)

@@ -140,7 +140,8 @@ def _deactivate(plan: Plan, t: int, sweep: _Sweep) -> None:
     rows.set_status(t, INACTIVE)
     sweep.undecided.append(rows.var0[t] + STATE)
     sweep.reopened.append(t)
-    _drop_scopes(plan, t, {s for s in _scopes_of(plan, t) if rows.scope_kind[s] != SCOPE_BODY}, sweep)
+    if rows.scopes[t] >= 0:
+        _drop_scopes(plan, t, {s for s in _scopes_of(plan, t) if rows.scope_kind[s] != SCOPE_BODY}, sweep)
 
 
 def wake_guards(plan: Plan, v: int) -> None:
@@ -207,7 +208,8 @@ def _finish(plan: Plan, sweep: _Sweep) -> bool:
             continue  # named both by itself and as a child of another
         freed.append(t)
         _deactivate(plan, t, sweep)
-        _drop_scopes(plan, t, set(_scopes_of(plan, t)), sweep)
+        if rows.scopes[t] >= 0:
+            _drop_scopes(plan, t, set(_scopes_of(plan, t)), sweep)
         unlink(rows, t, LIST_OPEN)
         rows.set_status(t, FREED)
         sweep.variables += range(rows.var0[t], rows.var0[t] + rows.width[t])

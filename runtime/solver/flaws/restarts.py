@@ -17,14 +17,17 @@ class Restarts:
 
     def __init__(self, engine: Store) -> None:
         self.engine = engine
-        self.clear()
-
-    def clear(self) -> None:
-        """Forget all weights: the plan was changed from outside."""
         self.weight = array("q", [1]) * 64
         self.failures = 0  # since the last restart
         self.limit = FEW_FAILURES  # of failures, for a restart
         self.count = 0
+
+    def clear(self) -> None:
+        """Forget all weights, if there are any: the plan was changed from outside."""
+        if self.failures or self.count:
+            self.weight = array("q", [1]) * 64
+            self.failures = self.count = 0
+            self.limit = FEW_FAILURES
 
     def rank(self, v: int, size: int) -> int:
         """Sort key of variables: size over weight, or the size alone in every other run."""
