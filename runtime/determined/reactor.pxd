@@ -9,7 +9,7 @@ cdef long long FAR, LINE, NONE, ROW, STOPS, _AHEAD
 
 
 cdef class DeterminedReactor(TeleoReactor):
-    cdef public long long final_tick, watched, execution_latency, tick, reached, base, steps_made, witnessed
+    cdef public long long final_tick, watched, execution_latency, tick, reached, base, witnessed
     cdef public object program, make_general, trace, inputs, general, witness
     cdef public list wishes, refused_goals, refusals_made
     cdef public Machine machine

@@ -58,7 +58,6 @@ class DeterminedReactor(TeleoReactor):
         self.tick = NONE
         self.reached = NONE  # the last tick that the machine has carried out
         self.base = NONE  # the tick of its snapshot
-        self.steps_made = 0
         self.is_beyond = False  # something came in that only the general engine understands
         self.general: PlanReactor | None = None
         self.witness: ShadowReactor | None = None  # of what came in up to `witnessed`
@@ -82,7 +81,6 @@ class DeterminedReactor(TeleoReactor):
         if self.general is not None:
             self.general.start_tick(tick)
         self.tick = tick
-        self.steps_made = 0
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published this tick; the last word counts."""
@@ -169,11 +167,10 @@ class DeterminedReactor(TeleoReactor):
         """How soon it should be given a step (T-REX 1.3)."""
         if self.general is not None:
             return self.general.urgency(tick)
-        return 1.0 / ((1 + self.latency + 1) * (self.steps_made + 1))
+        return 1.0 / (1 + self.latency + 1)  # one step does all there is to do
 
     def step(self, tick: int) -> bool:
         """Take in requests and carry out ticks ahead; where the next one is beyond the machine, plan in general."""
-        self.steps_made += 1
         if self.general is None:
             self._take_requests(tick)
         if self.general is None and self.reached == tick:

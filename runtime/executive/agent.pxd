@@ -10,7 +10,7 @@ cdef class Agent:
     cdef public Trace trace
     cdef public bint every_tick
     cdef public list reactors, ahead, awake, killed, stirred
-    cdef public dict owners, users, senders, takers, made
+    cdef public dict owners, users, senders, takers, made, places
     cdef public object seed
     cdef public long long tick
 

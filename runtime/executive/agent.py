@@ -86,6 +86,7 @@ class Agent:
         self.every_tick = every_tick
         self.poster = GoalPoster(goals, configuration.goals, trace)
         self.reactors = _in_order(reactors)
+        self.places = {reactor: place for place, reactor in enumerate(self.reactors)}
         _tell_owners(self.reactors)
         self.ahead = [reactor for reactor in self.reactors if reactor.runs_ahead]
         if self.ahead == self.reactors[:1]:
@@ -216,14 +217,14 @@ class Agent:
         return abort
 
     def _most_urgent(self, busy: list[TeleoReactor]) -> TeleoReactor:
-        """Who comes next; of equal ones the first."""
+        """Who comes next; of equal ones the first in the order of synchronising, whoever was woken first."""
         if len(busy) == 1:
             return busy[0]
         first = busy[0]
         most = first.urgency(self.tick)
         for reactor in busy[1:]:
             urgency = reactor.urgency(self.tick)
-            if urgency > most:
+            if urgency > most or (urgency == most and self.places[reactor] < self.places[first]):
                 first, most = reactor, urgency
         return first
 

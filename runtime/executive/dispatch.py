@@ -159,16 +159,18 @@ class Dispatch:
         )
 
     def _bounds(self, timeline: str, token: int, tick: int) -> TimeBounds:
-        """When the owner of a timeline may carry out a token.
+        """When the owner of a timeline may carry out a token, and how long.
 
         To the world a request is a command: when to begin is the sender's business, how long it takes is not.
         """
         bench = self.bench
-        is_command = self.owner_windows.get(timeline, (0, 1))[1] <= 1
-        end = INFINITY if is_command else whole_bound(bench.upper(bench.end(token)))
         earliest = max(tick + 1, whole_bound(bench.lower(bench.start(token))))
         start = (earliest, whole_bound(bench.upper(bench.start(token))))
-        return TimeBounds(start, (-INFINITY, end), (1, INFINITY))
+        if self.owner_windows.get(timeline, (0, 1))[1] <= 1:
+            return TimeBounds(start, (-INFINITY, INFINITY), (1, INFINITY))
+        length = bench.duration(token)
+        duration = (whole_bound(bench.lower(length)), whole_bound(bench.upper(length)))
+        return TimeBounds(start, (-INFINITY, whole_bound(bench.upper(bench.end(token)))), duration)
 
     def open_requests(self) -> list[int]:
         """Numbers of the requests that have been made and are not over."""
@@ -214,5 +216,6 @@ class Dispatch:
             return False
         now = self._bounds(request.timeline, token, tick)
         earliest = max(tick + 1, request.start[0])
-        is_same = now.start == (earliest, request.start[1]) and now.end == request.end
+        is_same = now.start == (earliest, request.start[1])
+        is_same = is_same and (now.end, now.duration) == (request.end, request.duration)
         return not is_same or bench.arguments(token) != request.arguments

@@ -64,6 +64,8 @@ cdef class PlanReactor(TeleoReactor):
     @cython.locals(deadline="long long")
     cpdef double urgency(self, long long tick) except? -1.0
 
+    cpdef object _rest(self, long long tick)
+
     cpdef bint is_out_of_steps(self) except -1
 
     @cython.locals(outcome="long long")

@@ -86,8 +86,8 @@ class PlanReactor(TeleoReactor):
         if not self.bench.is_consistent():
             raise _HistoryError(f"what is over at tick {tick} contradicts the plan of `{self.name}`")
         self.tick = tick
-        self.work_since = tick
-        self.steps_made = 0
+        if not self.is_out_of_steps():
+            self._rest(tick)
         self.decisions_made = 0
         self.is_stirred = False
 
@@ -266,6 +266,11 @@ class PlanReactor(TeleoReactor):
         deadline = self.work_since + 1 + self.latency
         return 1.0 / ((max(deadline - tick, 0) + 1) * (self.steps_made + 1))
 
+    def _rest(self, tick: int) -> None:
+        """Note that it has no work: what comes next is new, with a deadline of its own (T-REX 1.3)."""
+        self.work_since = tick
+        self.steps_made = 0
+
     def is_out_of_steps(self) -> bool:
         """Whether it has made as many decisions in this tick as it may."""
         return self.max_steps is not None and self.decisions_made >= self.max_steps
@@ -285,6 +290,7 @@ class PlanReactor(TeleoReactor):
             self.decisions_made += 1
             return True
         if outcome == EPISODE_DONE:
+            self._rest(tick)
             self.goals.report_rejected(tick)
             return False
         if outcome == EPISODE_TOO_DEEP:

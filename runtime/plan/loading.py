@@ -122,8 +122,7 @@ def load_predicates(plan: Plan, program: Program, prototypes: Prototypes, code: 
         flag = FLAG_ACTION if predicate.is_action else 0
         flag |= FLAG_EVENT if predicate.is_event else 0
         flags.append(flag | (FLAG_NATIVE if is_resource else 0))
-        heirs = (c for c in range(len(program.classes)) if number in prototypes.ancestry(c))
-        timeline.append(int(any(program.classes[c].native == "Timeline" for c in heirs)))
+        timeline.append(int(any(program.classes[c].native == "Timeline" for c in prototypes.heirs(number))))
         kind = RESOURCE_HOLDS
         if predicate.is_event:
             kind = RESOURCE_PRODUCES if predicate.name.endswith(".produce") else RESOURCE_CONSUMES

@@ -21,4 +21,4 @@ def test_a_repair_that_forgets_the_past_keeps_what_was_consumed() -> None:
     outcome = pinned(models)(models.agent)(1406981920)
     repairs = [event.stage for event in outcome.events if event.kind is EventKind.RELAX and event.reactor == "pilot"]
     assert RepairStage.FORGET_PAST in repairs
-    assert outcome.abort is not None and (outcome.abort.code, outcome.abort.tick) == ("F1", 779)
+    assert outcome.abort is not None and (outcome.abort.code, outcome.abort.tick) == ("F4", 817)

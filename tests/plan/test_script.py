@@ -64,6 +64,13 @@ def test_objects_within_objects_come_to_an_end() -> None:
     loaded(f"class C0 {{ }}\n{deep}C59 c = new C59();")
 
 
+def test_the_constructor_of_the_farthest_ancestor_is_run() -> None:
+    count = 1200  # more than Python's stack has
+    heirs = "".join(f"class C{k} extends C{k - 1} {{ C{k}(int v) {{ super(v); }} }}\n" for k in range(1, count))
+    database = loaded(f"class C0 {{ int k; C0(int v) {{ k = v; }} }}\n{heirs}C{count - 1} c = new C{count - 1}(4);")
+    assert domains(database)["c.k"] == "{4} int"
+
+
 def test_nothing_is_made_of_a_closed_class() -> None:
     assert stopped("class A { } A.close(); A a = new A();").code.kind == "state"
     text = "class A { } class T extends Timeline { predicate p { } } T::p { A a = new A(); } T t = new T(); close();"

@@ -1,5 +1,6 @@
 """Objects: members, names, constructors; open variables of their classes grow with them."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from compiler.program import Assign, ClassCode, ConstructorCode, NewObject, Program, SuperCode, TypeCode
@@ -55,12 +56,15 @@ class Fill:
     span: Span
 
 
+Step = Super | Fill | int  # of a constructor: one of the above or the number of a block
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class PreparedConstructor:
-    """A constructor ready to run: a step is one of the above or the number of a block."""
+    """A constructor ready to run."""
 
     parameters: tuple[int, ...]  # prototypes
-    steps: tuple[Super | Fill | int, ...]
+    steps: tuple[Step, ...]
     slots: int
 
 
@@ -83,7 +87,7 @@ class Objects:
 
     def prepare(self, constructor: ConstructorCode) -> PreparedConstructor:
         """Compile a constructor."""
-        steps: list[Super | Fill | int] = []
+        steps: list[Step] = []
         for step in constructor.body:
             match step:
                 case SuperCode(class_name=base, constructor=chosen, arguments=operands, span=span):
@@ -191,35 +195,46 @@ class Objects:
         return fault or o
 
     def _construct(self, number: int, chosen: int, o: int, arguments: list[int]) -> Diagnostic | None:
-        """Run a constructor of class `number` on object `o`; arguments pass their current domains."""
+        """Run a constructor of class `number` on object `o`; arguments pass their current domains.
+
+        A stack of its own holds those of the ancestors: a chain of classes may be longer than Python's stack.
+        """
         plan = self.plan
-        name = self.program.classes[number].name
-        if name in DEFAULTS:
-            self._fill_native(name, o, arguments)
-            return None
-        constructor = self.constructors[number][chosen]
-        scope = plan.rows.new_scope(SCOPE_SCRIPT, NONE, NONE, NONE, constructor.slots, constructor.slots)
-        for slot, (prototype, argument) in enumerate(zip(constructor.parameters, arguments, strict=True)):
-            plan.rows.set_slot(scope, slot, copy_current(plan, prototype, argument))
         outer = plan.self_object
+        running = [self._enter(number, chosen, o, arguments)]
         fault: Diagnostic | None = None
-        for step in constructor.steps:
+        while running:
+            scope, steps = running[-1]
             plan.self_object = o
+            step = None if fault is not None else next(steps, None)
             match step:
+                case None:
+                    running.pop()
+                    if scope != NONE and plan.rows.level == 0:
+                        plan.rows.release_scope(scope)
                 case Super(class_number=base, constructor=of_base, arguments=codes, span=span):
                     passed = [operand(plan, scope, kind, value, self.code.span(span)) for kind, value in codes]
-                    fault = self._construct(base, of_base, o, passed)
+                    running.append(self._enter(base, of_base, o, passed))
                 case Fill():
                     fault = self.fill(step, scope, o)
                 case _:
                     plan.push(plan.block_start[step], plan.block_end[step], scope, NONE, NONE)
                     run(plan)
-            if fault is not None:
-                break
         plan.self_object = outer
-        if plan.rows.level == 0:
-            plan.rows.release_scope(scope)
         return fault
+
+    def _enter(self, number: int, chosen: int, o: int, arguments: list[int]) -> tuple[int, Iterator[Step]]:
+        """The scope of a constructor with its parameters, and its steps; a native one is carried out at once."""
+        plan = self.plan
+        name = self.program.classes[number].name
+        if name in DEFAULTS:
+            self._fill_native(name, o, arguments)
+            return NONE, iter(())
+        constructor = self.constructors[number][chosen]
+        scope = plan.rows.new_scope(SCOPE_SCRIPT, NONE, NONE, NONE, constructor.slots, constructor.slots)
+        for slot, (prototype, argument) in enumerate(zip(constructor.parameters, arguments, strict=True)):
+            plan.rows.set_slot(scope, slot, copy_current(plan, prototype, argument))
+        return scope, iter(constructor.steps)
 
     def fill(self, step: Fill, scope: int, o: int | None) -> Diagnostic | None:
         """Carry out an assignment; `o` is the object under construction."""
@@ -269,8 +284,8 @@ class Objects:
 
     def close(self, number: int) -> None:
         """End the making of objects of a class and of its subclasses."""
-        for other in range(len(self.program.classes)):
-            if number in self.prototypes.ancestry(other) and not self.prototypes.is_closed[other]:
+        for other in sorted(self.prototypes.heirs(number)):
+            if not self.prototypes.is_closed[other]:
                 self.prototypes.is_closed[other] = True
                 for v in self.prototypes.still_open(other):
                     self.plan.engine.close(v)
