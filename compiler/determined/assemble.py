@@ -1,10 +1,12 @@
-"""Assemble a block: instructions in causal order become one list of integers, branches become jumps."""
+"""Assemble a block: what starts together, put into causal order and optimised, becomes one list of integers."""
 
 from compiler.determined import code
-from compiler.determined.code import STRIDE, RegisterBlock, RegisterLayout
+from compiler.determined.code import RegisterBlock, RegisterLayout
 from compiler.determined.elaborate import Elaboration
+from compiler.determined.linear import linear
 from compiler.determined.model import ReactorModel
 from compiler.determined.operations import Instruction
+from compiler.determined.optimise import BlockFacts, optimise
 from compiler.determined.relations import FOLLOWING, ROOT, TOGETHER
 from compiler.determined.schedule import AGAIN, Placed, Sequence, schedule
 from compiler.program import PredicateCode
@@ -21,40 +23,39 @@ def compile_block(
     model: ReactorModel, layout: RegisterLayout, line: int, predicate: PredicateCode, mask: int
 ) -> RegisterBlock:
     """The block of a predicate on a timeline, with the parameters in `mask` given; raises `UndeterminedError`."""
+    first = layout.top
     work = Elaboration(model, layout, line, predicate, mask)
     sequence = schedule(work.sheet)
-    placed = [*_clearing(work, layout, sequence), *_compared(sequence, layout)]
+    placed, is_sure = optimise(_compared(sequence, layout), _known(work, layout, sequence, first))
+    placed = [*_clearing(work, sequence), *placed]
     placed = [(context, _following(instruction, work, layout, sequence)) for context, instruction in placed]
     return RegisterBlock(
         line,
         predicate,
         mask,
-        tuple(_padded(each) for each in _linear(placed)),
+        tuple(linear(placed)),
         tuple(work.tokens),
         tuple(work.guards),
         tuple(work.locals),
         tuple(work.draws),
+        is_sure,
     )
 
 
-def _linear(placed: list[Placed]) -> list[Instruction]:
-    """Instructions with jumps over the branches that are not taken."""
-    done: list[list[int]] = []
-    open_branches: list[tuple[tuple[int, bool], int]] = []
-    for context, instruction in [*placed, ((), (code.HALT,))]:
-        common = 0
-        while common < min(len(open_branches), len(context)) and open_branches[common][0] == context[common]:
-            common += 1
-        while len(open_branches) > common:
-            done[open_branches.pop()[1]][2] = len(done)
-        for condition in context[common:]:
-            open_branches.append((condition, len(done)))
-            done.append([code.WHEN_FALSE if condition[1] else code.WHEN_TRUE, condition[0], 0])
-        done.append(list(instruction))
-    return [tuple(each) for each in done]
+def _known(work: Elaboration, layout: RegisterLayout, sequence: Sequence, first: int) -> BlockFacts:
+    """What is known of a block whose own registers are those from `first` on."""
+    shown = {each.shown.register for each in work.locals} | {each.register for each in work.guards}
+    return BlockFacts(
+        layout,
+        tuple(work.tokens),
+        tuple(work.banks),
+        frozenset(work.sheet.given),
+        sequence.cleared,
+        frozenset(range(first, layout.top)) - shown,
+    )
 
 
-def _clearing(work: Elaboration, layout: RegisterLayout, sequence: Sequence) -> list[Placed]:
+def _clearing(work: Elaboration, sequence: Sequence) -> list[Placed]:
     """Make unknown what branches compute; tokens that start have their parameters cleared by the machine."""
     banks = {
         work.banks[number] + k
@@ -108,8 +109,3 @@ def _following(instruction: Instruction, work: Elaboration, layout: RegisterLayo
     known = [k for k in range(len(token.predicate.parameters)) if work.banks[number] + k in sequence.known]
     mask = sum(1 << k for k in known)
     return (code.FOLLOW, line, owner, work.model.number(token.predicate), mask & 0xFFFFFFFF, mask >> 32)
-
-
-def _padded(instruction: Instruction) -> Instruction:
-    assert len(instruction) <= STRIDE
-    return (*instruction, *(0,) * (STRIDE - len(instruction)))

@@ -10,7 +10,9 @@ HALT, COPY, ADD, SUB, MUL, DIV, NEG, ABS, MIN, MAX, SQRT, FLOOR, CEIL, MOD, WHOL
 LEQ, LESS, EQUAL, SAME, NOT, AND, OR = range(15, 22)
 DISTANCE, TOWARDS, TRAVEL = range(22, 25)
 UNIFY, NEED, HOLD, CLEAR, WHEN_FALSE, WHEN_TRUE, DRAW = range(25, 32)
-BEGIN, MERGE, PREVIOUS, FOLLOW, LAST_EXACTLY, LAST_LEAST, LAST_MOST, TIE, WITHIN, MEMBER, ORDER, PLANNED = range(32, 44)
+MOVE, MUL_ADD, UNLESS_SAME = range(32, 35)  # several copies; a product and a sum, each rounded; SAME and WHEN_FALSE
+BEGIN, MERGE, PREVIOUS, FOLLOW, LAST_EXACTLY, LAST_LEAST, LAST_MOST, TIE, WITHIN, MEMBER, ORDER, PLANNED = range(35, 47)
+TARGET = {WHEN_FALSE: 2, WHEN_TRUE: 2, UNLESS_SAME: 4}  # where a jump has the number of an instruction
 STRIDE = 8  # numbers of an instruction: operation, result, up to six operands
 
 _FLOAT_TOLERANCE = 1e-5  # that of the engine
@@ -84,6 +86,7 @@ class RegisterBlock:
     guards: tuple[GuardRecord, ...]
     locals: tuple[LocalRecord, ...]
     draws: tuple[int, ...]
+    is_sure: bool  # whether all parameters of the tokens that begin must have a value
 
 
 @dataclass(eq=False, slots=True)

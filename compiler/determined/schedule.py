@@ -195,7 +195,7 @@ def _look(
     if any(set(each) <= set(context) for each in looked.get(register, ())):
         return
     looked.setdefault(register, []).append(context)
-    placed.append((context, (code.NEED, register)))
+    placed.append((context, (code.NEED, register, 1)))
 
 
 def _is_named(register: int, sheet: Worksheet) -> bool:

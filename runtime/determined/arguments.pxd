@@ -15,6 +15,4 @@ cpdef tuple arguments_at(list shapes, names, Log log, long long first)
 @cython.locals(kind=str, known=dict, name=str, type_name=str)
 cpdef tuple _told(tuple shape, names, double value)
 
-cpdef object _made(str kind, str type_name, interval, values)
-
 cpdef object _domain_of(names, str kind, str type_name, double value)

@@ -7,13 +7,8 @@ from compiler.program import DomainConstant, ParameterCode, PredicateCode
 from runtime.determined.loading import ParameterShape, RegisterProgram, is_open, number_of
 from runtime.determined.log import Log
 from runtime.determined.machine import Machine
-from runtime.executive.messages import Arguments
+from runtime.executive.messages import Arguments, make_domain
 from runtime.plan.tags import INFINITY
-
-_NEW = object.__new__
-_PUT_KIND, _PUT_TYPE, _PUT_INTERVAL, _PUT_VALUES = [
-    DomainConstant.__dict__[name].__set__ for name in ("kind", "type_name", "interval", "values")
-]
 
 
 def given_block(
@@ -98,22 +93,12 @@ def _shape_of(program: RegisterProgram, parameter: ParameterCode) -> ParameterSh
 def _domain_of(names: Sequence[str], kind: str, type_name: str, value: float) -> DomainConstant:
     """What a register says of a variable; NaN leaves it open."""
     if value != value:
-        return _made(kind, type_name, (-INFINITY, INFINITY), None)
+        return make_domain(kind, type_name, (-INFINITY, INFINITY), None)
     if kind == "float":
         number = value + 0.0  # no negative zero
-        return _made(kind, type_name, (number, number), None)
+        return make_domain(kind, type_name, (number, number), None)
     if kind == "int":
-        return _made(kind, type_name, (int(value), int(value)), None)
+        return make_domain(kind, type_name, (int(value), int(value)), None)
     if kind == "bool":
-        return _made(kind, type_name, None, (bool(value),))
-    return _made(kind, type_name, None, (names[int(value)],))
-
-
-def _made(kind: str, type_name: str, interval: object, values: object) -> DomainConstant:
-    """A domain in half the time that the `__init__` of a frozen class takes: simulators tell thousands."""
-    domain: DomainConstant = _NEW(DomainConstant)
-    _PUT_KIND(domain, kind)
-    _PUT_TYPE(domain, type_name)
-    _PUT_INTERVAL(domain, interval)
-    _PUT_VALUES(domain, values)
-    return domain
+        return make_domain(kind, type_name, None, (bool(value),))
+    return make_domain(kind, type_name, None, (names[int(value)],))

@@ -17,7 +17,6 @@ from runtime.determined.tags import (
 )
 
 Bounds = tuple[int, int]
-_SECTIONS = ((WISH_FROM, WISH_UNTIL), (WISH_END_FROM, WISH_END_UNTIL), (WISH_LEAST, WISH_MOST))
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,16 +35,23 @@ def ask(machine: Machine, wanted: Ask) -> None:
     """Have a machine start a token as soon as it may."""
     state, n, line = machine.present.state, machine.lines, wanted.line
     state[WISH * n + line] = wanted.block
-    for (first, last), (lower, upper) in zip(_SECTIONS, (wanted.start, wanted.end, wanted.duration), strict=True):
-        state[first * n + line] = max(lower, 0)
-        state[last * n + line] = min(upper, FAR)
-    for k, value in wanted.values.items():
-        machine.registers[machine.wished[line] + k] = value
+    state[WISH_FROM * n + line], state[WISH_UNTIL * n + line] = _bounds(wanted.start)
+    state[WISH_END_FROM * n + line], state[WISH_END_UNTIL * n + line] = _bounds(wanted.end)
+    state[WISH_LEAST * n + line], state[WISH_MOST * n + line] = _bounds(wanted.duration)
+    if wanted.values:
+        registers, first = machine.registers, machine.tables.wished[line]
+        for k, value in wanted.values.items():
+            registers[first + k] = value
+
+
+def _bounds(given: Bounds) -> Bounds:
+    return max(given[0], 0), min(given[1], FAR)
 
 
 def ask_instead(machine: Machine, wanted: Sequence[Ask]) -> None:
     """Replace all requests that have not started."""
-    for line in range(machine.lines):
-        machine.present.state[WISH * machine.lines + line] = NONE
+    state = machine.present.state
+    for line in range(WISH * machine.lines, (WISH + 1) * machine.lines):
+        state[line] = NONE
     for each in wanted:
         ask(machine, each)

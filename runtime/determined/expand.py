@@ -215,7 +215,7 @@ class _Expansion:
         """What was still to follow when the mission ended."""
         code = self.program.model.program.predicates[self.walk.follower[line]]
         later, lasting = ValueRange(self.tick + 1, inf), ValueRange(1, inf)
-        first = self.machine.following[line]
+        first = self.program.tables.following[line]
         where = tuple([(first + k, each.type.kind) for k, each in enumerate(code.parameters)])
         return TokenRecord(
             int(self.walk.awaited[line]),

@@ -6,13 +6,14 @@ from dataclasses import dataclass, field
 
 from compiler.determined.analysis import analyse
 from compiler.determined.assemble import compile_block
-from compiler.determined.code import FOLLOW, STRIDE, WHEN_FALSE, WHEN_TRUE, Line, RegisterBlock, RegisterLayout
+from compiler.determined.code import FOLLOW, STRIDE, TARGET, Line, RegisterBlock, RegisterLayout
 from compiler.determined.model import ReactorModel
 from compiler.determined.reasons import ChoiceReason, FreeChoice, UndeterminedError
 from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS, TOGETHER
 from compiler.program import DomainConstant, PredicateCode, Program
 from runtime.determined.machine import Machine
 from runtime.determined.reading import TokenReading, readings_of
+from runtime.determined.tables import CodeTables
 from runtime.determined.tags import FAR, IS_FOLLOWING, IS_MERGED, IS_PREVIOUS, IS_TOGETHER, NONE
 from runtime.determined.token_walk import BlockTokens
 from runtime.executive.record import ReactorRecord
@@ -59,6 +60,13 @@ class RegisterProgram:
     shown_indices: list[dict[int, int]] = field(default_factory=lambda: [{}])
     told: dict[tuple[str, str], dict[float, DomainConstant]] = field(default_factory=dict)  # by type: what others heard
     shapes: dict[str, list[ParameterShape]] = field(default_factory=dict)  # the parameters of a predicate
+    initial: "array[float]" = field(default_factory=lambda: array("d", [0.0]))  # registers as a mission finds them
+    tables: CodeTables = field(init=False)
+    tabled: int = 0  # of how many blocks they tell
+
+    def __post_init__(self) -> None:
+        """Nothing is compiled yet."""
+        self.tables = CodeTables(len(self.layout.lines))
 
     def block(self, line: int, predicate: PredicateCode, mask: int) -> int:
         """The number of a block, and of all that follow from it; raises `UndeterminedError`."""
@@ -75,8 +83,8 @@ class RegisterProgram:
         here = len(self.code)
         for instruction in made.instructions:
             numbers = list(instruction)
-            if numbers[0] in (WHEN_FALSE, WHEN_TRUE):
-                numbers[2] += base
+            if numbers[0] in TARGET:
+                numbers[TARGET[numbers[0]]] += base
             self.code.extend(numbers)
         for k, instruction in enumerate(made.instructions):
             if instruction[0] == FOLLOW:
@@ -122,46 +130,23 @@ class RegisterProgram:
 
     def machine(self, world: object) -> Machine:
         """A machine on which nothing has happened yet."""
-        layout = self.layout
-        machine = Machine(len(layout.lines), world)
-        machine.current = array("q", layout.current)
-        machine.following = array("q", layout.following)
-        machine.incoming = array("q", layout.incoming)
-        machine.wished = array("q", layout.wished)
-        machine.previous = array("q", layout.previous)
-        machine.starts = array("q", layout.starts)
-        machine.width = array("q", layout.widths)
-        machine.default_block = array("q", self.defaults)
-        machine.order = array("q", [*self.order, *[NONE] * (len(layout.lines) - len(self.order))])
-        for number, line in enumerate(layout.lines):
+        machine = Machine(len(self.layout.lines), self.tables, world)
+        for number, line in enumerate(self.layout.lines):
             machine.present.is_used[number] = line.role != "own"
-        machine.registers = array("d", [0.0])
         self.bring_up_to_date(machine)
         return machine
 
     def bring_up_to_date(self, machine: Machine) -> None:
         """Give a machine the code and the registers of blocks that were compiled since."""
         layout = self.layout
+        self._fill_tables()
         if len(machine.registers) < layout.top:
-            registers = array("d", [float("nan")]) * layout.top
+            registers = array("d", self.initial)
             registers[: len(machine.registers)] = array("d", machine.registers)
-            for register, value in (*layout.presets.items(), *self.constants.items()):
-                registers[register] = value
             machine.registers = registers
             kept = array("d", registers)
             kept[: len(machine.kept)] = array("d", machine.kept)
             machine.kept = kept
-        if len(machine.block_start) == len(self.starts):
-            return
-        machine.remembers = array("q", [number in layout.remembered for number in range(len(layout.lines))])
-        machine.code = array("i", self.code)
-        machine.block_start = array("q", self.starts)
-        machine.block_predicate = array(
-            "q", [NONE if each is None else self.model.number(each.predicate) for each in self.blocks]
-        )
-        machine.shown = array("q", self.shown or [0])
-        machine.shown_first = array("q", self.shown_first)
-        machine.block_mask = array("q", [0 if each is None else each.mask for each in self.blocks])
         count = max(len(layout.samples), 1)
         if len(machine.sample_value) < count:
             missing = count - len(machine.sample_value)
@@ -169,6 +154,37 @@ class RegisterProgram:
             machine.sample_until = array("q", machine.sample_until) + array("q", [NONE] * missing)
             machine.kept_value = array("d", machine.kept_value) + array("d", bytes(8 * missing))
             machine.kept_until = array("q", machine.kept_until) + array("q", [NONE] * missing)
+
+    def _fill_tables(self) -> None:
+        """What all machines share, brought up to date with the blocks that were compiled."""
+        layout, tables = self.layout, self.tables
+        if len(self.initial) < layout.top:
+            self.initial = array("d", [float("nan")]) * layout.top
+            for register, value in (*layout.presets.items(), *self.constants.items()):
+                self.initial[register] = value
+        if self.tabled == len(self.starts):
+            return
+        self.tabled = len(self.starts)
+        tables.current = array("q", layout.current)
+        tables.following = array("q", layout.following)
+        tables.incoming = array("q", layout.incoming)
+        tables.wished = array("q", layout.wished)
+        tables.previous = array("q", layout.previous)
+        tables.remembers = array("q", [number in layout.remembered for number in range(len(layout.lines))])
+        tables.starts = array("q", layout.starts)
+        tables.width = array("q", layout.widths)
+        tables.size = array("q", [len(each.parameters) for each in self.model.program.predicates])
+        tables.default_block = array("q", self.defaults)
+        tables.order = array("q", [*self.order, *[NONE] * (len(layout.lines) - len(self.order))])
+        tables.code = array("i", self.code)
+        tables.block_start = array("q", self.starts)
+        tables.block_predicate = array(
+            "q", [NONE if each is None else self.model.number(each.predicate) for each in self.blocks]
+        )
+        tables.block_mask = array("q", [0 if each is None else each.mask for each in self.blocks])
+        tables.block_sure = array("q", [each is not None and each.is_sure for each in self.blocks])
+        tables.shown = array("q", self.shown or [0])
+        tables.shown_first = array("q", self.shown_first)
 
 
 def load_determined(

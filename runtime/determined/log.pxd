@@ -2,7 +2,6 @@
 
 cimport cython
 
-cdef double _COARSE
 cdef long long BLOCK, CAUSE, EVENT, FAR, KIND, LINE, ROW, SHOWN, VALUES
 
 
@@ -14,13 +13,7 @@ cdef class Log:
 
     cpdef long long note(self, long long tick, long long line, long long predicate, long long block) except? -1
 
-    @cython.locals(at="long long", j="long long", told="double[::1]", value="double")
-    cpdef bint put(self, long long row, double[::1] registers, long long first, long long width) except -1
-
-    @cython.locals(at="long long", j="long long", told="double[::1]")
-    cpdef int show(
-        self, long long row, double[::1] registers, long long[::1] shown, long long first, long long last
-    ) except -1
+    cpdef long long room(self, long long count) except? -1
 
     cpdef int note_draw(self, long long tick, long long parameter) except -1
 

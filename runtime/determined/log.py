@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from runtime.determined.tags import BLOCK, CAUSE, EVENT, FAR, KIND, LINE, ROW, SHOWN, VALUES
 
-_COARSE = 2.0**32  # beyond it the last places of sums come near the tolerance, where an interval engine decides
 _MOST_KEPT = 3  # pieces of memory of each kind
 _Array = NDArray[Any]
 
@@ -86,32 +85,12 @@ class Log:
         self.row_count += 1
         return self.row_count - 1
 
-    def put(self, row: int, registers: "array[float]", first: int, width: int) -> bool:
-        """Add the parameters of a token, which stand in registers from `first` on; false if one is too large."""
-        while self.value_count + width > self.value_capacity:
+    def room(self, count: int) -> int:
+        """Room for `count` values; the index of the first."""
+        while self.value_count + count > self.value_capacity:
             self.grow_values()
-        at = self.value_count
-        self.rows[ROW * row + VALUES] = at
-        self.value_count = at + width
-        told = self.values
-        for j in range(width):
-            value = registers[first + j]
-            if value >= _COARSE or value <= -_COARSE:
-                return False
-            told[at + j] = value
-        return True
-
-    def show(self, row: int, registers: "array[float]", shown: "array[int]", first: int, last: int) -> int:
-        """Add the values that the block of a row shows: of the registers that `shown` names from `first` to `last`."""
-        while self.value_count + last - first > self.value_capacity:
-            self.grow_values()
-        at = self.value_count
-        self.rows[ROW * row + SHOWN] = at
-        self.value_count = at + last - first
-        told = self.values
-        for j in range(first, last):
-            told[at + j - first] = registers[shown[j]]
-        return 0
+        self.value_count += count
+        return self.value_count - count
 
     def note_draw(self, tick: int, parameter: int) -> int:
         """Add a draw."""

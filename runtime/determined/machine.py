@@ -13,25 +13,26 @@ from array import array
 
 from runtime.determined.log import Log
 from runtime.determined.present import Present
+from runtime.determined.tables import CodeTables
 from runtime.determined.tags import (
+    BEFORE,
     CHANGES,
+    COARSE,
     DUE,
     ENDING,
     FOLLOWER,
-    LEAST,
-    MOST,
+    KIND,
+    LINE,
     NONE,
     OWNER,
     PREDICATE,
     ROW,
     RUNS_ON,
+    SHOWN,
     STOPS,
+    VALUES,
     WISH,
-    WISH_END_FROM,
-    WISH_END_UNTIL,
     WISH_FROM,
-    WISH_LEAST,
-    WISH_MOST,
     WISHED,
 )
 
@@ -42,37 +43,22 @@ _LARGEST = 2.0**51  # what is larger counts as infinite
 class Machine:
     """A reactor's code, registers and timelines."""
 
-    def __init__(self, lines: int, world: object) -> None:
+    def __init__(self, lines: int, tables: CodeTables, world: object) -> None:
         self.lines = lines
+        self.tables = tables
         self.world = world  # draws the sampled parameters
         self.present = Present(lines)
         self.log = Log(lines)
         self.registers = array("d", [0.0])
         self.kept = array("d", [0.0])
-        self.current = array("q", bytes(8 * lines))  # banks of registers
-        self.following = array("q", bytes(8 * lines))
-        self.incoming = array("q", bytes(8 * lines))
-        self.wished = array("q", bytes(8 * lines))
-        self.previous = array("q", bytes(8 * lines))
-        self.remembers = array("q", bytes(8 * lines))
-        self.starts = array("q", bytes(8 * lines))
         self.is_trial = False  # is a start tried out, when nothing else is about to end
         self.is_planned = False  # what starts was asked for or followed, it is not the default
-        self.width = array("q", bytes(8 * lines))
-        self.default_block = array("q", bytes(8 * lines))
-        self.order = array("q", [NONE])
-        self.code = array("i", bytes(4 * 8))
-        self.block_start = array("q", [0])
-        self.block_predicate = array("q", [NONE])
-        self.block_mask = array("q", [0])
         self.sample_value = array("d", [0.0])
         self.sample_until = array("q", [NONE])
         self.kept_value = array("d", [0.0])
         self.kept_until = array("q", [NONE])
         self.root_row = 0
         self.shows = False  # whether the values of rules are logged too, for the record
-        self.shown = array("q", [0])  # registers, block after block
-        self.shown_first = array("q", [0])
         self.why = RUNS_ON
 
     def keep(self) -> int:
@@ -115,6 +101,7 @@ class Machine:
     def tick(self, tick: int) -> bool:
         """Carry out one tick; false if the machine does not know how."""
         n = self.lines
+        tables = self.tables
         present = self.present
         if not present.begin_tick(tick):
             return False
@@ -124,9 +111,9 @@ class Machine:
                 present.state[DUE * n + i] = present.state[FOLLOWER * n + i]
                 present.state[FOLLOWER * n + i] = NONE
                 if present.state[OWNER * n + i] != i:
-                    first = self.following[i]
-                    into = self.incoming[i]
-                    for j in range(self.width[i]):
+                    first = tables.following[i]
+                    into = tables.incoming[i]
+                    for j in range(tables.width[i]):
                         self.registers[into + j] = self.registers[first + j]
         return self.start_all(tick)
 
@@ -138,7 +125,7 @@ class Machine:
         if present.steady >= 0:
             return self.start_block(present.steady, tick) and present.end_tick(tick)
         for k in range(n):
-            i = self.order[k]
+            i = self.tables.order[k]
             if i < 0:
                 break
             if present.changed >> i & 1 or (
@@ -168,6 +155,7 @@ class Machine:
     def start_block(self, i: int, tick: int) -> bool:
         """Start what takes the place of what has ended on a timeline."""
         n = self.lines
+        tables = self.tables
         present = self.present
         block = present.state[DUE * n + i]
         is_wish = False
@@ -180,216 +168,233 @@ class Machine:
             elif present.is_used[i]:
                 return bool(present.state[PREDICATE * n + i] < 0)  # nobody has published anything yet
             else:
-                block = self.default_block[i]
+                block = tables.default_block[i]
                 self.is_planned = False
         if block <= 0:
             return False
-        self.start(i, self.block_predicate[block])
-        mask = self.block_mask[block]
+        self.start(i, tables.block_predicate[block])
+        mask = tables.block_mask[block]
         is_own = present.state[DUE * n + i] >= 0 and present.state[OWNER * n + i] == i
-        first = self.following[i] if is_own else self.wished[i] if is_wish else self.incoming[i]
-        into = self.current[i]
-        r = self.registers
-        for j in range(self.width[i]):
-            if mask >> j & 1:
-                r[into + j] = r[first + j]
+        first = tables.following[i] if is_own else tables.wished[i] if is_wish else tables.incoming[i]
+        into = tables.current[i]
+        j = 0
+        while mask:
+            if mask & 1:
+                self.registers[into + j] = self.registers[first + j]
+            mask >>= 1
+            j += 1
         if is_wish:
-            present.state[LEAST * n + i] = max(
-                tick + present.state[WISH_LEAST * n + i], present.state[WISH_END_FROM * n + i], tick + 1
-            )
-            present.state[MOST * n + i] = min(
-                tick + present.state[WISH_MOST * n + i], present.state[WISH_END_UNTIL * n + i]
-            )
+            present.begin_wish(i)
+        predicate = tables.block_predicate[block]
+        self.root_row = self.log.note(tick, i, predicate, block | WISHED if is_wish else block)
+        return self.carry_out(tables.block_start[block]) and self.write_down(block)
+
+    def write_down(self, block: int) -> bool:
+        """Log the tokens that a block has begun, and what it shows; false if a parameter is too large, or missing."""
+        tables = self.tables
         log = self.log
-        self.root_row = log.note(tick, i, self.block_predicate[block], block | WISHED if is_wish else block)
-        if not self.carry_out(self.block_start[block]):
-            return False
+        is_sure = tables.block_sure[block]
         for row in range(self.root_row, log.row_count):
-            line = log.rows[ROW * row + 1]
-            if not log.put(row, r, self.current[line], self.width[line]):
-                return False
+            first = tables.current[log.rows[ROW * row + LINE]]
+            width = tables.size[log.rows[ROW * row + KIND]]
+            into = log.room(width)
+            log.rows[ROW * row + VALUES] = into
+            for j in range(width):
+                value = self.registers[first + j]
+                if not abs(value) < COARSE and (is_sure or value == value):
+                    return False
+                log.values[into + j] = value
         if self.shows:
-            log.show(self.root_row, r, self.shown, self.shown_first[block], self.shown_first[block + 1])
+            first = tables.shown_first[block]
+            width = tables.shown_first[block + 1] - first
+            into = log.room(width)
+            log.rows[ROW * self.root_row + SHOWN] = into
+            for j in range(width):
+                log.values[into + j] = self.registers[tables.shown[first + j]]
         return True
 
     def start(self, i: int, predicate: int) -> int:
         """Make a token of `predicate` the current one of a timeline; nothing is known of it but its start."""
+        tables = self.tables
         self.present.start(i, predicate)
-        self.registers[self.starts[i]] = self.present.now
-        first = self.current[i]
-        r = self.registers
-        if self.remembers[i]:
-            into = self.previous[i]
-            for j in range(self.width[i]):
-                r[into + j] = r[first + j]
-        for j in range(self.width[i]):
-            r[first + j] = _NAN
+        self.registers[tables.starts[i]] = self.present.now
+        first = tables.current[i]
+        if tables.remembers[i]:
+            into = tables.previous[i]
+            for j in range(tables.width[i]):
+                self.registers[into + j] = self.registers[first + j]
+        for j in range(first, first + tables.width[i]):
+            self.registers[j] = _NAN
         return 0
 
     def carry_out(self, at: int) -> bool:
         """Run the code from an instruction to its end; false if it stops before."""
-        code = self.code
-        r = self.registers
+        n = self.lines
+        tables = self.tables
+        present = self.present
         while True:
-            op = code[at]
-            out = code[at + 1]
-            a = code[at + 2]
-            b = code[at + 3]
+            op = tables.code[at]
+            out = tables.code[at + 1]
+            a = tables.code[at + 2]
+            b = tables.code[at + 3]
             at += 8
             if op == 0:  # HALT
                 return True
             if op == 1:  # COPY
-                r[out] = r[a]
+                self.registers[out] = self.registers[a]
             elif op == 2:  # ADD
-                r[out] = r[a] + r[b]
+                self.registers[out] = self.registers[a] + self.registers[b]
             elif op == 3:  # SUB
-                r[out] = r[a] - r[b]
+                self.registers[out] = self.registers[a] - self.registers[b]
             elif op == 4:  # MUL
-                r[out] = r[a] * r[b]
+                self.registers[out] = self.registers[a] * self.registers[b]
             elif op == 5:  # DIV
-                if r[b] == 0.0:
+                if self.registers[b] == 0.0:
                     return False
-                r[out] = r[a] / r[b]
+                self.registers[out] = self.registers[a] / self.registers[b]
             elif op == 6:  # NEG
-                r[out] = -r[a]
+                self.registers[out] = -self.registers[a]
             elif op == 7:  # ABS
-                r[out] = abs(r[a])
+                self.registers[out] = abs(self.registers[a])
             elif op == 8:  # MIN
-                r[out] = r[a] if r[a] <= r[b] else r[b]
+                self.registers[out] = self.registers[a] if self.registers[a] <= self.registers[b] else self.registers[b]
             elif op == 9:  # MAX
-                r[out] = r[a] if r[a] >= r[b] else r[b]
+                self.registers[out] = self.registers[a] if self.registers[a] >= self.registers[b] else self.registers[b]
             elif op == 10:  # SQRT
-                if r[a] < 0.0:
+                if self.registers[a] < 0.0:
                     return False
-                r[out] = math.sqrt(r[a])
+                self.registers[out] = math.sqrt(self.registers[a])
             elif op == 11:  # FLOOR
-                if not -_LARGEST < r[a] < _LARGEST:
+                if not -_LARGEST < self.registers[a] < _LARGEST:
                     return False
-                r[out] = math.floor(r[a] + _TOLERANCE)
+                self.registers[out] = math.floor(self.registers[a] + _TOLERANCE)
             elif op == 12:  # CEIL
-                if not -_LARGEST < r[a] < _LARGEST:
+                if not -_LARGEST < self.registers[a] < _LARGEST:
                     return False
-                r[out] = math.ceil(r[a] - _TOLERANCE)
+                self.registers[out] = math.ceil(self.registers[a] - _TOLERANCE)
             elif op == 13:  # MOD
-                if r[b] == 0.0 or not -_LARGEST < r[a] < _LARGEST:
+                if self.registers[b] == 0.0 or not -_LARGEST < self.registers[a] < _LARGEST:
                     return False
-                r[out] = math.fmod(r[a], r[b])
+                self.registers[out] = math.fmod(self.registers[a], self.registers[b])
             elif op == 14:  # WHOLE
-                if not -_LARGEST < r[a] < _LARGEST:
+                if not -_LARGEST < self.registers[a] < _LARGEST:
                     return False
-                r[out] = math.ceil(r[a] - _TOLERANCE)
-                if r[out] != math.floor(r[a] + _TOLERANCE):
+                self.registers[out] = math.ceil(self.registers[a] - _TOLERANCE)
+                if self.registers[out] != math.floor(self.registers[a] + _TOLERANCE):
                     return False
             elif op == 15:  # LEQ
-                r[out] = 1.0 if r[a] <= r[b] + _TOLERANCE else 0.0
+                self.registers[out] = 1.0 if self.registers[a] <= self.registers[b] + _TOLERANCE else 0.0
             elif op == 16:  # LESS
-                r[out] = 1.0 if r[a] + _TOLERANCE <= r[b] else 0.0
+                self.registers[out] = 1.0 if self.registers[a] + _TOLERANCE <= self.registers[b] else 0.0
             elif op == 17:  # EQUAL
-                r[out] = 1.0 if r[a] <= r[b] + _TOLERANCE and r[b] <= r[a] + _TOLERANCE else 0.0
+                x, y = self.registers[a], self.registers[b]
+                self.registers[out] = 1.0 if x <= y + _TOLERANCE and y <= x + _TOLERANCE else 0.0
             elif op == 18:  # SAME
-                r[out] = 1.0 if r[a] == r[b] else 0.0
+                self.registers[out] = 1.0 if self.registers[a] == self.registers[b] else 0.0
             elif op == 19:  # NOT
-                r[out] = 1.0 if r[a] == 0.0 else 0.0
+                self.registers[out] = 1.0 if self.registers[a] == 0.0 else 0.0
             elif op == 20:  # AND
-                r[out] = 1.0 if r[a] != 0.0 and r[b] != 0.0 else 0.0
+                self.registers[out] = 1.0 if self.registers[a] != 0.0 and self.registers[b] != 0.0 else 0.0
             elif op == 21:  # OR
-                r[out] = 1.0 if r[a] != 0.0 or r[b] != 0.0 else 0.0
+                self.registers[out] = 1.0 if self.registers[a] != 0.0 or self.registers[b] != 0.0 else 0.0
             elif op == 22:  # DISTANCE
-                x = r[a] - r[code[at - 4]]
-                y = r[b] - r[code[at - 3]]
-                r[out] = math.sqrt(x * x + y * y)
+                x = self.registers[a] - self.registers[tables.code[at - 4]]
+                y = self.registers[b] - self.registers[tables.code[at - 3]]
+                self.registers[out] = math.sqrt(x * x + y * y)
             elif op == 23:  # TOWARDS
-                x = r[code[at - 3]] - r[b]
-                y = r[code[at - 2]] - r[code[at - 4]]
+                x = self.registers[tables.code[at - 3]] - self.registers[b]
+                y = self.registers[tables.code[at - 2]] - self.registers[tables.code[at - 4]]
                 z = math.sqrt(x * x + y * y)
-                r[out] = x / z if z > 0.0 else x
-                r[a] = y / z if z > 0.0 else y
+                self.registers[out] = x / z if z > 0.0 else x
+                self.registers[a] = y / z if z > 0.0 else y
             elif op == 24:  # TRAVEL
-                x = r[code[at - 4]] - r[a]
-                y = r[code[at - 3]] - r[b]
-                z = r[code[at - 2]]
+                x = self.registers[tables.code[at - 4]] - self.registers[a]
+                y = self.registers[tables.code[at - 3]] - self.registers[b]
+                z = self.registers[tables.code[at - 2]]
                 if z <= 0.0:
                     return False
                 z = math.sqrt(x * x + y * y) / z - 1e-9
                 if not z < _LARGEST:
                     return False
-                r[out] = max(1.0, math.ceil(z))
+                self.registers[out] = max(1.0, math.ceil(z))
             elif op == 25:  # UNIFY
-                if r[out] != r[out]:
-                    r[out] = r[a]
-                elif r[out] != r[a]:
+                if self.registers[out] != self.registers[out]:
+                    self.registers[out] = self.registers[a]
+                elif self.registers[out] != self.registers[a]:
                     return False
             elif op == 26:  # NEED
-                if not -_LARGEST < r[out] < _LARGEST:
-                    return False
+                for j in range(out, out + a):
+                    if not -_LARGEST < self.registers[j] < _LARGEST:
+                        return False
             elif op == 27:  # HOLD
-                if r[out] == 0.0:
+                if self.registers[out] == 0.0:
                     return False
             elif op == 28:  # CLEAR
-                for j in range(a):
-                    r[out + j] = _NAN
+                for j in range(out, out + a):
+                    self.registers[j] = _NAN
             elif op == 29:  # WHEN_FALSE
-                if r[out] == 0.0:
+                if self.registers[out] == 0.0:
                     at = 8 * a
             elif op == 30:  # WHEN_TRUE
-                if r[out] != 0.0:
+                if self.registers[out] != 0.0:
                     at = 8 * a
             elif op == 31:  # DRAW
-                if self.sample_until[a] <= self.present.now:
-                    if not self.world.draw(self, a, self.present.now):  # type: ignore[attr-defined]
-                        return False
-                    self.log.note_draw(self.present.now, a)
-                r[out] = self.sample_value[a]
-            else:
-                if not self.arrange(op, out, a, b, at):
+                is_old = self.sample_until[a] <= present.now
+                if is_old and not self.world.draw(self, a, present.now):  # type: ignore[attr-defined]
                     return False
-
-    def arrange(self, op: int, line: int, a: int, b: int, at: int) -> bool:
-        """Operations on timelines; false where they are not possible."""
-        n = self.lines
-        present = self.present
-        if op == 32:  # BEGIN
-            if present.changed >> line & 1 or present.state[DUE * n + line] >= 0:
-                return False
-            if (
-                present.state[PREDICATE * n + line] >= 0
-                and not present.state[ENDING * n + line]
-                and not present.end_with(line)
-            ):
-                return False
-            self.start(line, a)
-            self.log.note(present.now, line, a, -1 - self.root_row)
-            return True
-        if op == 33:  # MERGE
-            holds = self.is_trial or present.changed >> line & 1 or not present.state[ENDING * n + line]
-            return bool(holds and present.state[PREDICATE * n + line] == a)
-        if op == 34:  # PREVIOUS
-            return bool(present.state[present.before + line] == a)
-        if op == 35:  # FOLLOW
-            block = self.code[at - 2]
-            if present.state[FOLLOWER * n + line] >= 0 or block <= 0:
-                return False
-            if present.state[DUE * n + line] >= 0 and not present.changed >> line & 1:
-                return False  # what is due there has not been taken yet
-            present.follow(line, a, block)
-            return True
-        if op == 39:  # TIE
-            present.tie(line, a)
-            return True
-        if op == 40:  # WITHIN
-            return present.put_within(line, a)
-        if op == 41:  # MEMBER
-            for j in range(b):  # noqa: SIM110 (a generator cannot be compiled here)
-                if self.registers[a + j] == self.registers[line]:
-                    return True
-            return False
-        if op == 42:  # ORDER
-            return bool(self.registers[line] <= self.registers[a])
-        if op == 43:  # PLANNED
-            return self.is_planned
-        value = self.registers[a]
-        if not -_LARGEST < value < _LARGEST or value != math.floor(value):
-            return False
-        bound = int(value)
-        present.bound(line, bound, op != 38, op != 37)  # LAST_EXACTLY, LAST_LEAST, LAST_MOST
-        return True
+                self.registers[out] = self.sample_value[a]
+            elif op == 32:  # MOVE
+                for j in range(b):
+                    self.registers[out + j] = self.registers[a + j]
+            elif op == 33:  # MUL_ADD
+                z = self.registers[a] * self.registers[b]
+                self.registers[out] = z + self.registers[tables.code[at - 4]]
+            elif op == 34:  # UNLESS_SAME
+                self.registers[out] = 1.0 if self.registers[a] == self.registers[b] else 0.0
+                if self.registers[a] != self.registers[b]:
+                    at = 8 * tables.code[at - 4]
+            elif op == 35:  # BEGIN
+                if present.changed >> out & 1 or present.state[DUE * n + out] >= 0:
+                    return False
+                if present.state[PREDICATE * n + out] >= 0 and not present.state[ENDING * n + out]:
+                    if not present.end_with(out):
+                        return False
+                self.start(out, a)
+                self.log.note(present.now, out, a, -1 - self.root_row)
+            elif op == 36:  # MERGE
+                holds = self.is_trial or present.changed >> out & 1 or not present.state[ENDING * n + out]
+                if not holds or present.state[PREDICATE * n + out] != a:
+                    return False
+            elif op == 37:  # PREVIOUS
+                if present.state[BEFORE * n + out] != a:
+                    return False
+            elif op == 38:  # FOLLOW
+                j = tables.code[at - 2]
+                if present.state[FOLLOWER * n + out] >= 0 or j <= 0:
+                    return False
+                if present.state[DUE * n + out] >= 0 and not present.changed >> out & 1:
+                    return False  # what is due there has not been taken yet
+                present.follow(out, a, j)
+            elif op in (39, 40, 41):  # LAST_EXACTLY, LAST_LEAST, LAST_MOST
+                z = self.registers[a]
+                if not -_LARGEST < z < _LARGEST or z != math.floor(z):
+                    return False
+                j = int(z)
+                present.bound(out, j, op != 41, op != 40)
+            elif op == 42:  # TIE
+                present.tie(out, a)
+            elif op == 43:  # WITHIN
+                if not present.put_within(out, a):
+                    return False
+            elif op == 44:  # MEMBER
+                j = 0
+                while j < b and self.registers[a + j] != self.registers[out]:
+                    j += 1
+                if j == b:
+                    return False
+            elif op == 45:  # ORDER
+                if not self.registers[out] <= self.registers[a]:
+                    return False
+            elif op == 46:  # PLANNED
+                if not self.is_planned:
+                    return False

@@ -3,39 +3,35 @@
 cimport cython
 
 cdef long long NONE, FAR, PAIRS, PREDICATE, START, SLOT, LEAST, MOST, FOLLOWER, OWNER, ENDING, DUE, WISH, WISH_FROM
-cdef long long WISH_UNTIL, BEFORE, SECTIONS
+cdef long long WISH_UNTIL, WISH_END_FROM, WISH_END_UNTIL, WISH_LEAST, WISH_MOST, BEFORE, SECTIONS
 
 
 cdef class Present:
-    cdef public long long lines, before, pairs, now, reach, changed, alone, steady, rest
+    cdef public long long lines, pairs, now, reach, changed, alone, steady, rest
     cdef public long long[::1] state, kept, flags, is_used
 
-    @cython.locals(k="long long")
-    cpdef int clear(self) except -1
+    cpdef int begin_wish(self, long long i) except -1
 
     cpdef long long coming(self, long long tick) except? -1
 
-    @cython.locals(found="long long", state="long long[::1]")
+    @cython.locals(found="long long")
     cpdef long long next_event(self, long long tick) except? -1
 
-    @cython.locals(state="long long[::1]")
     cpdef bint steps_alone(self, long long tick) except -1
 
     cpdef bint begin_tick(self, long long tick) except -1
 
     cpdef bint end_with(self, long long i) except -1
 
-    cpdef bint is_news(self, long long i) except -1
-
     cpdef bint is_kept(self, long long at) except -1
 
-    @cython.locals(j="long long", left="long long", state="long long[::1]")
+    @cython.locals(j="long long", left="long long")
     cpdef bint end_tick(self, long long tick) except -1
 
-    @cython.locals(i="long long", state="long long[::1]")
+    @cython.locals(i="long long")
     cpdef bint becomes_steady(self, long long tick) except -1
 
-    @cython.locals(i="long long", state="long long[::1]")
+    @cython.locals(i="long long")
     cpdef bint stays_steady(self, long long tick) except -1
 
     cpdef bint has_room(self, long long i, long long tick) except -1

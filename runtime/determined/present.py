@@ -26,7 +26,11 @@ from runtime.determined.tags import (
     SLOT,
     START,
     WISH,
+    WISH_END_FROM,
+    WISH_END_UNTIL,
     WISH_FROM,
+    WISH_LEAST,
+    WISH_MOST,
     WISH_UNTIL,
 )
 
@@ -36,10 +40,10 @@ class Present:
 
     def __init__(self, lines: int) -> None:
         self.lines = lines
-        self.before = BEFORE * lines
         self.pairs = SECTIONS * lines  # where orders of ends begin: their number, then four numbers each
-        self.state = array("q", bytes(8 * (SECTIONS * lines + 1 + 4 * PAIRS)))
-        self.kept = array("q", self.state)
+        size = 8 * (SECTIONS * lines + 1 + 4 * PAIRS)
+        self.state = array("q", bytes(size))
+        self.kept = array("q", bytes(size))
         self.flags = array("q", bytes(8 * lines))
         self.is_used = array("q", bytes(8 * lines))  # timelines of other reactors
         self.now = 0
@@ -48,20 +52,21 @@ class Present:
         self.alone = NONE  # the only timeline to which something happens at the next event, if there is just one
         self.steady = NONE  # the timeline whose tokens follow each other, as long as nothing else happens
         self.rest = FAR  # the first tick at which something else may happen
-        self.clear()
+        for i in range(lines):
+            self.state[PREDICATE * lines + i] = NONE
+            self.state[SLOT * lines + i] = i
+            self.state[MOST * lines + i] = FAR
+            self.state[FOLLOWER * lines + i] = NONE
+            self.state[WISH * lines + i] = NONE
+            self.state[BEFORE * lines + i] = NONE
 
-    def clear(self) -> int:
-        """Nothing holds yet."""
+    def begin_wish(self, i: int) -> int:
+        """Bound the end of a token that somebody asked for, and that starts now."""
         n = self.lines
-        for k in range(len(self.state)):
-            self.state[k] = 0
-        for i in range(n):
-            self.state[PREDICATE * n + i] = NONE
-            self.state[SLOT * n + i] = i
-            self.state[MOST * n + i] = FAR
-            self.state[FOLLOWER * n + i] = NONE
-            self.state[WISH * n + i] = NONE
-            self.state[BEFORE * n + i] = NONE
+        now = self.now
+        least = max(now + self.state[WISH_LEAST * n + i], self.state[WISH_END_FROM * n + i], now + 1)
+        self.state[LEAST * n + i] = least
+        self.state[MOST * n + i] = min(now + self.state[WISH_MOST * n + i], self.state[WISH_END_UNTIL * n + i])
         return 0
 
     def coming(self, tick: int) -> int:
@@ -76,26 +81,25 @@ class Present:
     def next_event(self, tick: int) -> int:
         """The first tick after `tick` at which something may end or start by itself."""
         n = self.lines
-        state = self.state
         found = FAR
         self.alone = NONE
         for i in range(n):
-            if state[PREDICATE * n + i] < 0:
+            if self.state[PREDICATE * n + i] < 0:
                 if not self.is_used[i]:
                     self.alone = NONE
                     return tick + 1
                 continue
-            slot = state[SLOT * n + i]
-            if state[MOST * n + slot] <= found:
-                self.alone = i if state[MOST * n + slot] < found else NONE
-                found = state[MOST * n + slot]
-            if state[WISH * n + i] >= 0:
+            slot = self.state[SLOT * n + i]
+            if self.state[MOST * n + slot] <= found:
+                self.alone = i if self.state[MOST * n + slot] < found else NONE
+                found = self.state[MOST * n + slot]
+            if self.state[WISH * n + i] >= 0:
                 # A wish is looked at as soon as the token before it may end.
-                due = state[WISH_FROM * n + i]
+                due = self.state[WISH_FROM * n + i]
                 if due - self.reach > tick:
                     due -= self.reach
-                elif state[LEAST * n + slot] > due:
-                    due = state[LEAST * n + slot]
+                elif self.state[LEAST * n + slot] > due:
+                    due = self.state[LEAST * n + slot]
                 if due <= found:
                     self.alone = NONE
                     found = due
@@ -110,35 +114,34 @@ class Present:
         False, and nothing done, if other tokens may have to end with it.
         """
         n = self.lines
-        state = self.state
         i = self.alone
         if self.steady >= 0:
             self.now = tick
             self.changed = 0
-            state[DUE * n + i] = state[FOLLOWER * n + i]
-            state[FOLLOWER * n + i] = NONE
+            self.state[DUE * n + i] = self.state[FOLLOWER * n + i]
+            self.state[FOLLOWER * n + i] = NONE
             return True
-        if i < 0 or self.is_used[i] or state[FOLLOWER * n + i] < 0 or state[OWNER * n + i] != i:
+        if i < 0 or self.is_used[i] or self.state[FOLLOWER * n + i] < 0 or self.state[OWNER * n + i] != i:
             return False
-        if state[LEAST * n + state[SLOT * n + i]] > tick:
+        if self.state[LEAST * n + self.state[SLOT * n + i]] > tick:
             return False
         for j in range(n):
-            if j != i and state[FOLLOWER * n + j] >= 0 and state[OWNER * n + j] == i:
+            if j != i and self.state[FOLLOWER * n + j] >= 0 and self.state[OWNER * n + j] == i:
                 return False
-            if state[WISH * n + j] >= 0 and state[WISH_FROM * n + j] <= tick:
+            if self.state[WISH * n + j] >= 0 and self.state[WISH_FROM * n + j] <= tick:
                 return False
         pairs = self.pairs
-        for k in range(state[pairs]):
-            if state[pairs + 2 + 4 * k] == i and self.is_kept(pairs + 1 + 4 * k):
+        for k in range(self.state[pairs]):
+            if self.state[pairs + 2 + 4 * k] == i and self.is_kept(pairs + 1 + 4 * k):
                 return False
         self.now = tick
         self.changed = 0
         for j in range(n):
-            state[ENDING * n + j] = 0
-            state[DUE * n + j] = NONE
-        state[ENDING * n + i] = 1
-        state[DUE * n + i] = state[FOLLOWER * n + i]
-        state[FOLLOWER * n + i] = NONE
+            self.state[ENDING * n + j] = 0
+            self.state[DUE * n + j] = NONE
+        self.state[ENDING * n + i] = 1
+        self.state[DUE * n + i] = self.state[FOLLOWER * n + i]
+        self.state[FOLLOWER * n + i] = NONE
         return True
 
     def begin_tick(self, tick: int) -> bool:
@@ -177,12 +180,10 @@ class Present:
             grows = False
             for j in range(n):
                 if self.flags[j] == 1 and self.state[PREDICATE * n + j] >= 0:
+                    slot = self.state[SLOT * n + j]
                     for k in range(n):
-                        if (
-                            self.flags[k] == 0
-                            and self.state[SLOT * n + k] == self.state[SLOT * n + j]
-                            and self.state[PREDICATE * n + k] >= 0
-                        ):
+                        is_tied = self.state[SLOT * n + k] == slot and self.state[PREDICATE * n + k] >= 0
+                        if is_tied and self.flags[k] == 0:
                             self.flags[k] = 1
                             grows = True
                 elif (
@@ -201,17 +202,13 @@ class Present:
             if self.flags[j] == 1 and not self.state[ENDING * n + j] and self.state[PREDICATE * n + j] >= 0:
                 if self.state[LEAST * n + self.state[SLOT * n + j]] > self.now:
                     return False
-                if self.is_used[j] and not self.is_news(j):
+                # Unless another reactor has published something there now.
+                if self.is_used[j] and (self.state[WISH * n + j] < 0 or self.state[WISH_FROM * n + j] != self.now):
                     return False
         for j in range(n):
             if self.flags[j] == 1:
                 self.state[ENDING * n + j] = 1
         return True
-
-    def is_news(self, i: int) -> bool:
-        """Whether another reactor has published something on a timeline now."""
-        n = self.lines
-        return self.state[WISH * n + i] >= 0 and self.state[WISH_FROM * n + i] == self.now
 
     def is_kept(self, at: int) -> bool:
         """Whether an order of two ends still speaks of the tokens that hold."""
@@ -222,9 +219,8 @@ class Present:
     def end_tick(self, tick: int) -> bool:
         """Let ends that are ordered bound each other; something must hold on each timeline of the reactor."""
         n = self.lines
-        state = self.state
         pairs = self.pairs
-        count = state[pairs]
+        count = self.state[pairs]
         if self.steady >= 0 and self.stays_steady(tick):
             return True
         grows = True
@@ -232,76 +228,75 @@ class Present:
             grows = False
             for k in range(count):
                 at = pairs + 1 + 4 * k
-                if self.is_kept(at) and self.order_ends(state[at], state[at + 1]):
+                if self.is_kept(at) and self.order_ends(self.state[at], self.state[at + 1]):
                     grows = True
             for i in range(n):
-                if state[FOLLOWER * n + i] >= 0 and state[OWNER * n + i] != i and state[PREDICATE * n + i] >= 0:
-                    if self.order_ends(i, state[OWNER * n + i]):
+                owner = self.state[OWNER * n + i]
+                if self.state[FOLLOWER * n + i] >= 0 and owner != i and self.state[PREDICATE * n + i] >= 0:
+                    if self.order_ends(i, owner):
                         grows = True
         for i in range(n):
-            if state[PREDICATE * n + i] < 0:
+            if self.state[PREDICATE * n + i] < 0:
                 if not self.is_used[i]:
                     return False
                 continue
-            slot = state[SLOT * n + i]
-            if state[LEAST * n + slot] > state[MOST * n + slot] or state[MOST * n + slot] <= tick:
+            slot = self.state[SLOT * n + i]
+            if self.state[LEAST * n + slot] > self.state[MOST * n + slot] or self.state[MOST * n + slot] <= tick:
                 return False
-            if state[ENDING * n + i] and not self.changed >> i & 1:
+            if self.state[ENDING * n + i] and not self.changed >> i & 1:
                 return False
-            if state[WISH * n + i] >= 0 and not self.has_room(i, tick):
+            if self.state[WISH * n + i] >= 0 and not self.has_room(i, tick):
                 return False
         # An order whose first end is past has said what it has to say.
         left = 0
         for k in range(count):
             at = pairs + 1 + 4 * k
-            slot = state[SLOT * n + state[at]]
-            if self.is_kept(at) and state[LEAST * n + slot] != state[MOST * n + slot]:
+            slot = self.state[SLOT * n + self.state[at]]
+            if self.is_kept(at) and self.state[LEAST * n + slot] != self.state[MOST * n + slot]:
                 for j in range(4):
-                    state[pairs + 1 + 4 * left + j] = state[at + j]
+                    self.state[pairs + 1 + 4 * left + j] = self.state[at + j]
                 left += 1
-        state[pairs] = left
+        self.state[pairs] = left
         self.steady = self.alone if self.becomes_steady(tick) else NONE
         return True
 
     def becomes_steady(self, tick: int) -> bool:
         """Whether only the timeline `alone` changes after `tick`, up to before `rest`."""
         n = self.lines
-        state = self.state
         i = self.alone
-        if i < 0 or self.changed != 1 << i or state[self.pairs] or state[SLOT * n + i] != i:
+        if i < 0 or self.changed != 1 << i or self.state[self.pairs] or self.state[SLOT * n + i] != i:
             return False
-        if state[FOLLOWER * n + i] < 0:
+        if self.state[FOLLOWER * n + i] < 0:
             return False
         self.rest = FAR
         for j in range(n):
-            if state[FOLLOWER * n + j] >= 0 and state[OWNER * n + j] != j:
+            if self.state[FOLLOWER * n + j] >= 0 and self.state[OWNER * n + j] != j:
                 return False
-            if state[WISH * n + j] >= 0:
-                if state[WISH_FROM * n + j] - self.reach <= tick:
+            if self.state[WISH * n + j] >= 0:
+                if self.state[WISH_FROM * n + j] - self.reach <= tick:
                     return False
-                self.rest = min(self.rest, state[WISH_FROM * n + j] - self.reach)
-            if j != i and state[PREDICATE * n + j] >= 0:
-                if state[SLOT * n + j] == i:
+                self.rest = min(self.rest, self.state[WISH_FROM * n + j] - self.reach)
+            if j != i and self.state[PREDICATE * n + j] >= 0:
+                if self.state[SLOT * n + j] == i:
                     return False
-                self.rest = min(self.rest, state[MOST * n + state[SLOT * n + j]])
+                self.rest = min(self.rest, self.state[MOST * n + self.state[SLOT * n + j]])
         return True
 
     def stays_steady(self, tick: int) -> bool:
         """End a tick at which only the steady timeline has changed; false, and nothing lost, if there is more to do."""
         n = self.lines
-        state = self.state
         i = self.steady
-        least = state[LEAST * n + i]
-        if state[FOLLOWER * n + i] < 0 or least != state[MOST * n + i] or least <= tick:
+        least = self.state[LEAST * n + i]
+        if self.state[FOLLOWER * n + i] < 0 or least != self.state[MOST * n + i] or least <= tick:
             return False
-        for k in range(state[self.pairs]):
+        for k in range(self.state[self.pairs]):
             at = self.pairs + 1 + 4 * k
-            slot = state[SLOT * n + state[at + 1]]
-            if state[at] != i or state[MOST * n + slot] < least:
+            slot = self.state[SLOT * n + self.state[at + 1]]
+            if self.state[at] != i or self.state[MOST * n + slot] < least:
                 return False
-            if state[LEAST * n + slot] < least:
-                state[LEAST * n + slot] = least
-        state[self.pairs] = 0
+            if self.state[LEAST * n + slot] < least:
+                self.state[LEAST * n + slot] = least
+        self.state[self.pairs] = 0
         return True
 
     def has_room(self, i: int, tick: int) -> bool:

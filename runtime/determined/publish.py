@@ -46,6 +46,7 @@ class Samples:
         machine.sample_value[parameter] = draw.value
         machine.sample_until[parameter] = min(until, FAR)
         self.draws[parameter, tick] = draw
+        machine.log.note_draw(tick, parameter)
         return True
 
 

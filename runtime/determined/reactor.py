@@ -23,7 +23,7 @@ from runtime.executive.story import latest
 from runtime.executive.trace import Trace
 from runtime.plan.readout.names import VariableName
 
-_AHEAD = 128  # ticks that are carried out before anybody asks for them
+_AHEAD = 48  # ticks that are carried out before anybody asks for them
 
 
 class DeterminedReactor(TeleoReactor):

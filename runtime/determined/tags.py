@@ -2,6 +2,7 @@
 
 NONE = -1
 FAR = 2**51  # later than any tick
+COARSE = 2.0**32  # beyond it the last places of sums come near the tolerance, where an interval engine decides
 PAIRS = 64  # how many orders of ends can be kept
 
 # Sections of `state`, one number for each timeline.

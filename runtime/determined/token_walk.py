@@ -61,7 +61,7 @@ class TokenWalk:
         self.children = array("q", [NONE]) * (count + 1)  # where the tokens of the block of a row begin
         self.child_keys = array("q", [NONE])
         self.child_rows = array("q", [NONE])
-        self.merged = array("q", bytes(8 * 3 * 64))  # key, number among the tokens of blocks, row of the other
+        self.merged = array("q", [NONE])  # key, number among the tokens of blocks, row of the other
         self.merged_count = 0
         self.current = array("q", [NONE]) * lines
         self.before = array("q", [NONE]) * lines
@@ -84,6 +84,7 @@ class TokenWalk:
                 room += self.first[block + 1] - self.first[block]
         self.child_keys = array("q", [NONE]) * (room + 1)
         self.child_rows = array("q", [NONE]) * (room + 1)
+        self.merged = array("q", bytes(8 * 3 * (room + 1)))
         row = 0
         while row < self.count:
             tick = self.log.rows[ROW * row]
@@ -155,8 +156,6 @@ class TokenWalk:
     def merge(self, token: int, row: int) -> int:
         """Note a child that is merged into the token of a row."""
         at = 3 * self.merged_count
-        if at == len(self.merged):
-            self.merged = array("q", bytes(self.merged) + bytes(8 * at))
         self.merged[at] = self.next_key
         self.merged[at + 1] = token
         self.merged[at + 2] = row

@@ -6,7 +6,7 @@ from math import isnan
 
 from compiler.program import DomainConstant
 from runtime.executive.configuration import CodeConfiguration
-from runtime.executive.messages import Arguments, Observation, Request, make_tuple
+from runtime.executive.messages import Arguments, Observation, Request, make_domain, make_tuple
 from runtime.executive.outcome import EventKind, Reason, ReasonKind, TimeBounds
 from runtime.executive.reactor import Failure, Refusal, TeleoReactor
 from runtime.executive.trace import Trace
@@ -272,18 +272,18 @@ def _domain(name: str, value: object, kind: tuple[str, str] | None) -> DomainCon
         lower, upper = _number(name, value[0]), _number(name, value[1])
         if lower > upper:
             raise ValueError(f"`{name}` is between {value!r}")
-        return DomainConstant(*_typed(name, value, kind, ("float", "int")), (lower, upper), None)
+        return make_domain(*_typed(name, value, kind, ("float", "int")), (lower, upper), None)
     if isinstance(value, bool):
-        return DomainConstant(*_typed(name, value, kind, ("bool",)), None, (value,))
+        return make_domain(*_typed(name, value, kind, ("bool",)), None, (value,))
     if isinstance(value, frozenset) and value:
         kinds = _NAMED if all(isinstance(each, str) for each in value) else ("int", "float", "bool")
-        return DomainConstant(*_typed(name, value, kind, kinds), None, tuple(sorted(value, key=repr)))
+        return make_domain(*_typed(name, value, kind, kinds), None, tuple(sorted(value, key=repr)))
     if isinstance(value, str):
-        return DomainConstant(*_typed(name, value, kind, _NAMED), None, (value,))
+        return make_domain(*_typed(name, value, kind, _NAMED), None, (value,))
     number = _number(name, value)
     found = _typed(name, value, kind, ("int", "float") if isinstance(value, int) else ("float", "int"))
     exact: int | float = int(number) if found[0] != "float" and number == int(number) else number
-    return DomainConstant(*found, (exact, exact), None)
+    return make_domain(*found, (exact, exact), None)
 
 
 def _typed(name: str, value: object, kind: tuple[str, str] | None, kinds: tuple[str, ...]) -> tuple[str, str]:

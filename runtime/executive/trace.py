@@ -3,10 +3,12 @@
 from collections.abc import Callable
 
 from runtime.executive.events import EventLog
-from runtime.executive.messages import Arguments
+from runtime.executive.messages import Arguments, draft_of
 from runtime.executive.outcome import Conflict, Deadlock, Draw, Event, EventKind, Phase, Reason, RepairStage, TimeBounds
 from runtime.executive.reactor import Watched
 from runtime.plan.readout.names import TokenName
+
+_Draft = draft_of(Event)
 
 
 def as_it_is(conflict: Conflict, watches: tuple[Watched, ...]) -> Conflict:
@@ -46,27 +48,26 @@ class Trace:
         deadlock: Deadlock | None = None,
     ) -> int:
         """Add an event at the present tick and phase; its index is what later events name as their cause."""
-        return self.events.append(
-            Event(
-                self.tick,
-                self.phase,
-                kind,
-                reactor,
-                timeline,
-                predicate,
-                arguments,
-                causes,
-                token,
-                request,
-                bounds,
-                draw,
-                stage,
-                code,
-                reason,
-                conflict,
-                deadlock,
-            )
-        )
+        event = _Draft()
+        event.tick = self.tick
+        event.phase = self.phase
+        event.kind = kind
+        event.reactor = reactor
+        event.timeline = timeline
+        event.predicate = predicate
+        event.arguments = arguments
+        event.causes = causes
+        event.token = token
+        event.request = request
+        event.bounds = bounds
+        event.draw = draw
+        event.stage = stage
+        event.code = code
+        event.reason = reason
+        event.conflict = conflict
+        event.deadlock = deadlock
+        event.__class__ = Event
+        return self.events.append(event)
 
     def record_draw(self, reactor: str, draw: Draw) -> int:
         """Add a drawn value, once per parameter and date; the index of its event."""

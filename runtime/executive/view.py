@@ -7,7 +7,7 @@ from math import inf
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START, DomainConstant
 from runtime.constraints.domains.sparse_set import SparseSet
 from runtime.constraints.domains.tags import KIND_BOOL, KIND_FLOAT, KIND_INT, KIND_STRING
-from runtime.executive.messages import Arguments
+from runtime.executive.messages import Arguments, make_domain
 from runtime.executive.recorder import Recorder
 from runtime.executive.timelines import TimelineState
 from runtime.plan.database import PlanDatabase
@@ -156,21 +156,19 @@ class PlanView:
         if shape in (KIND_INT, KIND_FLOAT, KIND_BOOL):
             lower, upper = engine.lower(v), engine.upper(v)
             if shape == KIND_BOOL:
-                return DomainConstant(
-                    kind, type_name, None, tuple([bool(x) for x in range(int(lower), int(upper) + 1)])
-                )
+                return make_domain(kind, type_name, None, tuple([bool(x) for x in range(int(lower), int(upper) + 1)]))
             if shape == KIND_INT:
-                return DomainConstant(kind, type_name, (whole_bound(lower), whole_bound(upper)), None)
-            return DomainConstant(kind, type_name, (max(lower, -INFINITY) + 0, min(upper, INFINITY) + 0), None)
+                return make_domain(kind, type_name, (whole_bound(lower), whole_bound(upper)), None)
+            return make_domain(kind, type_name, (max(lower, -INFINITY) + 0, min(upper, INFINITY) + 0), None)
         if not engine.is_finite(v) and engine.lower(v) != engine.upper(v):
-            return DomainConstant(kind, type_name, (-INFINITY, INFINITY), None)
+            return make_domain(kind, type_name, (-INFINITY, INFINITY), None)
         single = engine.lower(v) == engine.upper(v)
         values = [int(engine.lower(v))] if single else [int(value) for value in engine.values_of(v)]
         if shape == KIND_STRING:
-            return DomainConstant(kind, type_name, None, tuple([prototypes.texts.text(x) for x in values]))
+            return make_domain(kind, type_name, None, tuple([prototypes.texts.text(x) for x in values]))
         if kind == "object":
-            return DomainConstant(kind, type_name, None, tuple([self.database.objects.names[x] for x in values]))
-        return DomainConstant(kind, type_name, None, tuple([prototypes.symbols.text(x) for x in values]))
+            return make_domain(kind, type_name, None, tuple([self.database.objects.names[x] for x in values]))
+        return make_domain(kind, type_name, None, tuple([prototypes.symbols.text(x) for x in values]))
 
     # ---- asking ----
 
