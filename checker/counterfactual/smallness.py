@@ -278,7 +278,9 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             if float(edit.new) <= 0.0 < float(edit.old):
                 return _LATE
             way = usage.directions.of(edit, site)
-            soon = 1.2 if way == (-1 if _direction(edit) else 1) else -0.3 if float(edit.old) else _BETWEEN
+            soon = (
+                1.2 if way == (-1 if _direction(edit) else 1) else -0.3 if site.named or float(edit.old) else _BETWEEN
+            )
             between = _BETWEEN if way == 0 else 1.2  # too much may be as bad as too little
             return soon if _is_farthest(edit, site) else between if _octaves(edit) >= 1.0 else None
         case EditKind.OFF_BY_ONE:

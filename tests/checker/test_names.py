@@ -280,3 +280,19 @@ def test_a_number_is_tried_twice_as_large_soon_where_more_may_be_worse(sea: list
     usage = usage_of(sea)
     twice, much = (delay_of(*edit(sea, "use.quantity == 20.0;", "20.0", new), usage) for new in ("40.0", "200.0"))
     assert twice is not None and much is not None and much < twice < 1.0
+
+
+def test_a_zero_is_doubted_sooner_where_it_has_a_name(tmp_path: Path) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_text(
+        """int SLIDE;
+SLIDE = 0;
+class Boat extends Timeline { predicate Go { int wait; } predicate Stay { int wait; } }
+Boat::Go { wait == 0; }
+Boat::Stay { wait == SLIDE; }
+"""
+    )
+    found = sites_of(load_graph(path, ()))
+    usage = usage_of(found)
+    named, bare = (delay_of(*edit(found, text, "0", "5"), usage) for text in ("SLIDE = 0;", "wait == 0;"))
+    assert named is not None and bare is not None and named < bare
