@@ -278,13 +278,19 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             if float(edit.new) <= 0.0 < float(edit.old):
                 return _LATE
             way = usage.directions.of(edit, site)
-            soon = (
-                1.2 if way == (-1 if _direction(edit) else 1) else -0.3 if site.named or float(edit.old) else _BETWEEN
-            )
             between = _BETWEEN if way == 0 else 1.2  # too much may be as bad as too little
-            return soon if _is_farthest(edit, site) else between if _octaves(edit) >= 1.0 else None
+            if not _is_farthest(edit, site):
+                return between if _octaves(edit) >= 1.0 else None
+            # A zero in a rule seldom stands for a number, nor does the 1 of a count: `next.k == k + 1`.
+            is_telling = site.named or (float(edit.old) != 0.0 and not _is_step(edit, site))
+            return 1.2 if way == (-1 if _direction(edit) else 1) else -0.3 if is_telling else _BETWEEN
         case EditKind.OFF_BY_ONE:
             return 0.4 if abs(float(edit.old)) <= _FEW else None
+
+
+def _is_step(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether a number is a 1 that is added or taken away."""
+    return edit.old == "1" and site.text[: edit.begin - site.begin].rstrip().endswith(("+", "-"))
 
 
 def _is_farthest(edit: SmallEdit, site: EditSite) -> bool:

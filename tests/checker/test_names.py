@@ -282,17 +282,20 @@ def test_a_number_is_tried_twice_as_large_soon_where_more_may_be_worse(sea: list
     assert twice is not None and much is not None and much < twice < 1.0
 
 
-def test_a_zero_is_doubted_sooner_where_it_has_a_name(tmp_path: Path) -> None:
+def test_a_zero_or_a_step_is_doubted_sooner_where_it_has_a_name(tmp_path: Path) -> None:
     path = tmp_path / "m.nddl"
     path.write_text(
         """int SLIDE;
 SLIDE = 0;
-class Boat extends Timeline { predicate Go { int wait; } predicate Stay { int wait; } }
-Boat::Go { wait == 0; }
+int STEP;
+STEP = 1;
+class Boat extends Timeline { predicate Go { int wait; int k; } predicate Stay { int wait; } }
+Boat::Go { wait == 0; wait == k + 1; k <= STEP; }
 Boat::Stay { wait == SLIDE; }
 """
     )
     found = sites_of(load_graph(path, ()))
     usage = usage_of(found)
-    named, bare = (delay_of(*edit(found, text, "0", "5"), usage) for text in ("SLIDE = 0;", "wait == 0;"))
-    assert named is not None and bare is not None and named < bare
+    for old, new, name, bare in (("0", "5", "SLIDE = 0;", "wait == 0;"), ("1", "10", "STEP = 1;", "wait == k + 1;")):
+        soon, late = (delay_of(*edit(found, text, old, new), usage) for text in (name, bare))
+        assert soon is not None and late is not None and soon < late
