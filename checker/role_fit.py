@@ -24,7 +24,7 @@ def find_role_misfits(
 ) -> Iterator[Diagnostic]:
     """Complain of timelines that a model and the mission file give different roles, and of defaults that are none."""
     benches: dict[str, Workbench | None] = {}
-    told: set[tuple[str, str]] = set()
+    told: set[tuple[str, int]] = set()
     for number, reactor in enumerate(mission.agent.reactors):
         if reactor.model not in benches:
             benches[reactor.model] = _loaded(programs[reactor.model], constraints)
@@ -47,10 +47,11 @@ def find_role_misfits(
                         help=_move(timeline, mode),
                         notes=_declared(programs[reactor.model], timeline),
                     )
+        written = (*reactor.internal, *reactor.external)
+        meant = {each if each in names else nearest(each, names) for each in written}  # a misspelt one is told already
         for timeline in names:
             mode = bench.mode(names.index(timeline))
-            is_listed = timeline in (*reactor.internal, *reactor.external)
-            if mode in _KEYS and not is_listed and _is_global(programs[reactor.model], timeline):
+            if mode in _KEYS and timeline not in meant and _is_global(programs[reactor.model], timeline):
                 key_path = ("reactor", number, _KEYS[mode])
                 is_there = key_path in mission.text.places
                 span = mission.text.value_span(key_path) if is_there else mission.text.key_span(key_path[:2])
@@ -62,9 +63,10 @@ def find_role_misfits(
                     help=_move(timeline, mode),
                     notes=_declared(programs[reactor.model], timeline),
                 )
-            if mode and (reactor.model, timeline) not in told:
-                told.add((reactor.model, timeline))
-                yield from _strange_default(programs[reactor.model], bench, timeline)
+            strange = _strange_default(programs[reactor.model], bench, timeline) if mode else None
+            if strange is not None and (place := (strange.span.source.name, strange.span.begin)) not in told:
+                told.add(place)
+                yield strange
 
 
 def _loaded(program: Program, constraints: Sequence[Constraint]) -> Workbench | None:
@@ -94,19 +96,17 @@ def _declared(program: Program, timeline: str) -> tuple[Note, ...]:
     return ()
 
 
-def _strange_default(program: Program, bench: Workbench, timeline: str) -> Iterator[Diagnostic]:
+def _strange_default(program: Program, bench: Workbench, timeline: str) -> Diagnostic | None:
     code = program.classes[bench.database.plan.object_class[bench.database.objects.names.index(timeline)]]
     default = bench.default_name(bench.database.objects.names.index(timeline))
     known = [one.name.rpartition(".")[2] for one in program.predicates if one.class_name == code.name]
-    if default in known:
-        return
     span = _written(program, code, default) or code.span
-    if span is None:
-        return
+    if default in known or span is None:
+        return None
     close = nearest(default, known)
     advice = f"did you mean `{close}`?" if close else f"predicates: {', '.join(known)}"
     notes = _declared(program, timeline)
-    yield NO_DEFAULT.at(span, timeline=timeline, predicate=default, class_name=code.name, help=advice, notes=notes)
+    return NO_DEFAULT.at(span, timeline=timeline, predicate=default, class_name=code.name, help=advice, notes=notes)
 
 
 def _written(program: Program, code: ClassCode, default: str) -> Span | None:

@@ -7,13 +7,10 @@ from itertools import pairwise
 
 from lsprotocol.types import DocumentLink, DocumentSymbol, FoldingRange, FoldingRangeKind, SymbolKind
 
-from lsp.mission_texts import FILE_KEYS, OpenMission
+from lsp.mission_texts import FILE_KEYS, HEADER, KEY, STRING, OpenMission
 from lsp.positions import Lines
 from lsp.uris import uri_of
 
-_TABLE = re.compile(r"\s*(\[\[?)\s*([^\[\]#]*?)\s*\]")
-_KEY = re.compile(r"\s*([A-Za-z0-9_-]+|\"[^\"]*\"|'[^']*')\s*=")
-_STRING = re.compile(r"\"((?:[^\"\\]|\\.)*)\"|'([^']*)'")
 _COMMENT = re.compile(r"#.*")
 _NAMING = ("name", "timeline", "predicate", "model")  # of these keys an entry of the outline is made
 _KINDS = {"reactor": SymbolKind.Class, "goal": SymbolKind.Event, "parameters": SymbolKind.Variable}
@@ -82,16 +79,15 @@ def _links(mission: OpenMission) -> Iterator[DocumentLink]:
     starts = mission.lines.starts
     key = ""
     for number, (line, is_inside) in enumerate(_depths(mission.lines)):
-        begun = _KEY.match(line) if not is_inside else None
+        begun = KEY.match(line) if not is_inside else None
         if not is_inside:
             key = begun[1].strip("\"'") if begun is not None else ""
         if key not in FILE_KEYS:
             continue
         for string in _strings(line, begun.end() if begun is not None else 0):
-            group = 1 if string[1] is not None else 2
-            path = mission.file_named(string[group])
+            path = mission.file_named(string[2])
             if path is not None:
-                place = mission.lines.range(*(starts[number] + each for each in string.span(group)))
+                place = mission.lines.range(*(starts[number] + each for each in string.span(2)))
                 yield DocumentLink(place, uri_of(path))
 
 
@@ -111,18 +107,18 @@ def _sections(lines: Lines) -> Iterator[_Section]:
     """The tables with a header and a name, in the order of the text."""
     section: _Section | None = None
     for number, (line, is_inside) in enumerate(_depths(lines)):
-        table = _TABLE.match(line) if not is_inside else None
+        table = HEADER.match(line) if not is_inside else None
         if table is not None and table[2]:
             if section is not None:
                 yield section
-            section = _Section(table[2], table[1] == "[[", number, *table.span(2), number, len(line), {})
+            section = _Section(table[2], table[1] is not None, number, *table.span(2), number, len(line), {})
         elif section is not None and (is_inside or _COMMENT.sub("", line, count=1).strip()):
             section.last, section.end = number, len(line)
-            key = _KEY.match(line) if not is_inside else None
+            key = KEY.match(line) if not is_inside else None
             if key is not None and key[1] in _NAMING:
                 string = next(_strings(line, key.end()), None)
                 if string is not None:
-                    section.names[key[1]] = string[1] if string[1] is not None else string[2]
+                    section.names[key[1]] = string[2]
     if section is not None:
         yield section
 
@@ -133,14 +129,14 @@ def _depths(lines: Lines) -> Iterator[tuple[str, bool]]:
     for begin, end in pairwise((*lines.starts, len(lines.text))):
         line = lines.text[begin:end].rstrip("\r\n")
         yield line, depth > 0
-        plain = _COMMENT.sub("", _STRING.sub("", line))
-        if depth > 0 or _KEY.match(line):
+        plain = _COMMENT.sub("", STRING.sub("", line))
+        if depth > 0 or KEY.match(line):
             depth = max(0, depth + plain.count("[") - plain.count("]"))
 
 
 def _strings(line: str, begin: int) -> Iterator[re.Match[str]]:
     """The strings of a line before its comment."""
-    for string in _STRING.finditer(line, begin):
-        if "#" in _STRING.sub("", line[begin : string.start()]):
+    for string in STRING.finditer(line, begin):
+        if "#" in STRING.sub("", line[begin : string.start()]):
             return
         yield string

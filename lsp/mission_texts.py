@@ -18,16 +18,16 @@ from nddl_lang.text.source import Source
 # All that is wrong with a text of that name in that folder; whether the workspace is trusted.
 Examine = Callable[[Source, Path, bool], Iterable[Diagnostic]]
 _SUFFIX = ".toml"
-_HEADER = re.compile(r"^[ \t]*\[(\[)?[ \t]*([^\]\n]*?)[ \t]*\]", re.MULTILINE)
+HEADER = re.compile(r"^[ \t]*\[(\[)?[ \t]*([^\]\n]*?)[ \t]*\]", re.MULTILINE)
 _BEGUN = re.compile(r"[ \t]*\[\[?(?=[^\]\n]*\Z)")  # a header that is not closed yet
-_KEY = re.compile(r"""^[ \t]*([A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')[ \t]*=""", re.MULTILINE)
+KEY = re.compile(r"""^[ \t]*([A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')[ \t]*=""", re.MULTILINE)
 _MODEL = re.compile(r"""^[ \t]*model[ \t]*=[ \t]*["']([^"'\n]+)["']""", re.MULTILINE)
 _MISSION = re.compile(r"^[ \t]*\[(?:mission|\[reactor\])\]", re.MULTILINE)
 _FIGURES = ("figures",)  # there `samples = "gulper.Firing"` names two things
 _WORDS = ("mission", "solver")
 _CONFIGURATIONS = (NAME, PROJECT)
 FILE_KEYS = ("model", "solver", "batch", "modules", "code")  # whose values name files
-_STRING = re.compile(r"""(["'])((?:(?!\1)[^\n\\]|\\.)*)\1?""")
+STRING = re.compile(r"""(["'])((?:(?!\1)[^\n\\]|\\.)*)\1?""")
 
 
 @dataclass(slots=True)
@@ -81,7 +81,7 @@ def place_at(text: str, offset: int) -> MissionPlace:
         word, start, end = _word(text, offset)
         return MissionPlace(tuple(name.strip(" \t\"'") for name in names[:-1]), None, False, word, start, end)
     header = None
-    for header in _HEADER.finditer(text, 0, _line_end(text, offset)):
+    for header in HEADER.finditer(text, 0, _line_end(text, offset)):
         if header.start() > offset:
             break
     table: tuple[str, ...] = ()
@@ -96,7 +96,7 @@ def place_at(text: str, offset: int) -> MissionPlace:
         depth = text.count(".", header.start(2), start)
         return MissionPlace(table[:depth], None, False, text[start:end].strip(" \"'"), start, end)
     key = None
-    for found in _KEY.finditer(text, begin, _line_end(text, offset)):
+    for found in KEY.finditer(text, begin, _line_end(text, offset)):
         if found.start(1) > offset:
             break
         key = found
@@ -104,7 +104,7 @@ def place_at(text: str, offset: int) -> MissionPlace:
         return MissionPlace(table, None, False, *_word(text, offset))
     if offset <= key.end(1):
         return MissionPlace(table, None, False, key[1].strip("\"'"), key.start(1), key.end(1))
-    for string in _STRING.finditer(text, key.end(), _line_end(text, offset)):
+    for string in STRING.finditer(text, key.end(), _line_end(text, offset)):
         if string.start() < offset <= string.end() - (string[0][-1:] == string[1] and len(string[0]) > 1):
             begin, end = _part(text, string, offset) if table == _FIGURES else string.span(2)
             return MissionPlace(table, key[1].strip("\"'"), True, text[begin:end], begin, end)
@@ -121,7 +121,7 @@ def _part(text: str, string: re.Match[str], offset: int) -> tuple[int, int]:
 
 def _is_open(text: str, key: re.Match[str], offset: int) -> bool:
     """Whether an array that begins at a key is still open."""
-    value = _STRING.sub("", text[key.end() : offset])
+    value = STRING.sub("", text[key.end() : offset])
     return value.count("[") > value.count("]")
 
 

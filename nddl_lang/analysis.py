@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
 
+from nddl_lang.misspelt_declaration import name_misspelt_declaration
 from nddl_lang.not_included import name_missing_include
 from nddl_lang.semantics.allocation import check_deferred
 from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
@@ -129,7 +130,9 @@ class Analyser:
             )
             for statement, unit in units.items()
         ]
-        found = name_missing_include(loaded, tuple(_in_order(loaded, complaints)), _declared_names)
+        declared = (name for unit in units.values() for name in unit.tables.declared)
+        found = name_misspelt_declaration(loaded.sources, tuple(_in_order(loaded, complaints)), declared)
+        found = name_missing_include(loaded, found, _declared_names)
         by_statement = {statement: unit.tables for statement, unit in units.items()}
         return Analysis(loaded, statements, symbols.schema, by_statement, found, self._callables)
 

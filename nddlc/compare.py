@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from checker.batch.result import MissionResult, write_point
+from checker.batch.result import MissionResult, write_record
 from checker.batch.store import RunStore, StoreError, open_store
 from checker.comparison import Comparison, Mission, Trialled, compare
 from checker.oracle import Verdict
@@ -66,7 +66,7 @@ def _stored(store: RunStore, name: str) -> dict[Mission, Trialled]:
         known = ", ".join(store.run_ids()[:10])
         raise Unusable(f"no single run is named `{name}`", f"runs in the store: {known or 'none'}")
     results = [one for one in store.results(run.id) if one.number > 0 and one.verdict is not Verdict.ERROR]
-    return {(one.seed, write_point(one.point)): _trialled(one) for one in results}
+    return {(one.seed, write_record(one.point)): _trialled(one) for one in results}
 
 
 def _trialled(result: MissionResult) -> Trialled:
@@ -79,7 +79,7 @@ def _reported(path: Path) -> dict[Mission, Trialled]:
     """The missions of a report; only plain random ones are known by their seed alone."""
     try:
         listed = json_value(path.read_text(encoding="utf-8"))["missions"]
-        point = write_point(RANDOM_POINT)
+        point = write_record(RANDOM_POINT)
         return {
             (int(one["seed"]), point): Trialled(
                 int(one["mission"]), one["verdict"] == "FAIL", str(one["code"]), str(one["reason"])

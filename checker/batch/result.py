@@ -81,44 +81,11 @@ class _Packer(pickle.Pickler):
         return (kind, _fields(kind)[2](value)) if _is_made_of_fields(kind) else NotImplemented
 
 
-def write_result(result: MissionResult) -> str:
-    """One line of JSON, the same for equal results."""
-    return _json(result)
-
-
-def read_result(text: str) -> MissionResult:
-    """The result that `write_result` wrote."""
-    found = _read(MissionResult, json.loads(text))
-    assert isinstance(found, MissionResult)
-    return found
-
-
 def write_record(value: object) -> str:
-    """A frozen dataclass of others, enums and plain values as a line of JSON."""
-    return _json(value)
+    """A frozen dataclass of others, enums and plain values as a line of JSON, the same for equal values.
 
-
-def read_record(kind: type[_T], text: str) -> _T:
-    """The value of a type that `write_record` wrote."""
-    found = _read(kind, json.loads(text))
-    assert isinstance(found, kind)
-    return found
-
-
-def write_point(point: SamplePoint) -> str:
-    """A point as a line of JSON."""
-    return _json(point)
-
-
-def read_point(text: str) -> SamplePoint:
-    """The point that `write_point` wrote."""
-    found = _read(SamplePoint, json.loads(text))
-    assert isinstance(found, SamplePoint)
-    return found
-
-
-def _json(value: Any) -> str:
-    """Dataclasses as the fields that differ from their defaults, enums by their values, all else as JSON has it."""
+    Dataclasses are the fields that differ from their defaults, enums their values.
+    """
     known: dict[int, Any] = {}  # by identity: conflicts name the same tokens and variables over and over
 
     def plain(value: Any) -> Any:
@@ -137,6 +104,13 @@ def _json(value: Any) -> str:
     )
 
 
+def read_record(kind: type[_T], text: str) -> _T:
+    """The value of a type that `write_record` wrote."""
+    found = _read(kind, json.loads(text))
+    assert isinstance(found, kind)
+    return found
+
+
 def _plain_fields(kind: Any, value: Any) -> dict[str, Any]:
     names, defaults, read = _fields(kind)
     return {
@@ -147,7 +121,7 @@ def _plain_fields(kind: Any, value: Any) -> dict[str, Any]:
 
 
 def _read(kind: Any, value: Any) -> Any:
-    """The value of type `kind` that `_plain` and JSON turned into `value`."""
+    """The value of type `kind` that `write_record` turned into `value`."""
     read = _reader(kind)
     return value if read is None else read(value)
 

@@ -15,14 +15,15 @@ from pathlib import Path
 from typing import Any
 
 from checker.batch.lock import Locks
-from checker.batch.result import MissionResult, read_point, read_result, write_point, write_result
+from checker.batch.result import MissionResult, read_record, write_record
 from checker.oracle import Verdict
 from checker.regression import RegressionCase
+from checker.sampling.sampler import SamplePoint
 
 LATEST = "latest"
 _MISSION = ".toml"
 _FOLDER = ".nddlc"
-_VERSION = 5  # of the schema and of `write_result`; other versions are not read
+_VERSION = 5  # of the schema and of `write_record`; other versions are not read
 _MARK = 0x4E44444C  # `NDDL`: the application id of SQLite's file format
 _FLUSH_SECONDS = 0.5
 _MOST_FAILURES = 40  # kept of one mission file
@@ -127,7 +128,7 @@ class RunStore:
 
     def add(self, run: Run, result: MissionResult) -> None:
         """Keep a result; it is on disk after the next `flush` at the latest."""
-        verdict, text = result.verdict.value, write_result(result)
+        verdict, text = result.verdict.value, write_record(result)
         self._pending.append((run.id, result.number, verdict, text, _checksum(run.id, result.number, verdict, text)))
         self.flush_if_due()
 
@@ -177,7 +178,7 @@ class RunStore:
     def keep_failures(self, run: Run, results: Sequence[MissionResult]) -> None:
         """Remember missions that failed, for later runs of the same mission file; of very many the latest."""
         rows = [
-            (run.mission_file, one.seed, write_point(one.point), one.judgement.code, run.id)
+            (run.mission_file, one.seed, write_record(one.point), one.judgement.code, run.id)
             for one in results
             if one.verdict is Verdict.FAIL
         ]
@@ -214,7 +215,7 @@ class RunStore:
         """The missions that failed in other runs of the same mission file, in the order in which they were kept."""
         query = "SELECT seed, code, point FROM failures WHERE mission_file = ? AND run != ? ORDER BY turn"
         rows = self._rows(query, run.mission_file, run.id)
-        return tuple(RegressionCase("", seed, code, read_point(point)) for seed, code, point in rows)
+        return tuple(RegressionCase("", seed, code, read_record(SamplePoint, point)) for seed, code, point in rows)
 
     def close(self) -> None:
         """Write what is pending and let go of the file."""
@@ -251,7 +252,7 @@ def result_of(row: tuple[object, ...]) -> MissionResult | None:
         return None
     if _checksum(run, number, verdict, text) != written:
         return None
-    return read_result(text)
+    return read_record(MissionResult, text)
 
 
 def _told(problem: sqlite3.Error, path: Path) -> StoreError:

@@ -42,6 +42,9 @@ ENUM_OF_THAT_NAME = Code(
     "NDDL235", Severity.WARNING, "duplicate", "`{name}` is an enum already; as a type it means the class from here on"
 )
 OWN_BASE = Code("NDDL236", Severity.ERROR, "name", "class `{name}` cannot extend itself")
+MISSPELT_DECLARATION = Code(
+    "NDDL237", Severity.ERROR, "name", "`{name}` is declared and never used; `{used}` is used and not declared"
+)
 NOT_AN_OBJECT = Code("NDDL301", Severity.ERROR, "type", "`{name}` is {type}, so `.{member}` finds nothing in it")
 CLASS_AS_VALUE = Code("NDDL302", Severity.ERROR, "type", "`{name}` is a class, not a value")
 MIXED_SET = Code(

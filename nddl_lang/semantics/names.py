@@ -206,8 +206,12 @@ def complain_unknown_member(context: Context, class_name: str, name: Identifier)
     complaint = UNKNOWN_MEMBER.at(name.span, notes=notes, owner=class_name, name=name.name)
     if owner is not None and not owner.is_defined:
         complaint = _with(complaint, f"`{class_name}` is only announced so far; define it above this place", ())
-    members = [member for ancestor in symbols.ancestry(class_name) for member in ancestor.members]
-    context.complain(suggest_name(complaint, name, members))
+    context.complain(suggest_name(complaint, name, _members(context, class_name)))
+
+
+def _members(context: Context, class_name: str) -> list[str]:
+    """The members of a class, its own first, inherited ones too."""
+    return [member for ancestor in context.symbols.ancestry(class_name) for member in ancestor.members]
 
 
 def complain_unknown(
@@ -249,7 +253,9 @@ def complain_unknown(
     else:
         own = builtin_names(scope.own.predicate.is_event) if scope.own is not None else ()
         values = [each for each in _VALUE_TABLES if each != "goal" or scope.kind is BlockKind.SCRIPT]
-        candidates = [*scope.visible(), *own, *symbols.names(*values, *tables), *_LITERALS]
+        constructed = scope.own_class if scope.kind is BlockKind.CONSTRUCTOR else None
+        members = _members(context, constructed) if constructed is not None else ()
+        candidates = [*scope.visible(), *own, *members, *symbols.names(*values, *tables), *_LITERALS]
         meant = "this" if word == "self" and scope.own is not None else None
         complaint = suggest_name(UNKNOWN_NAME.at(name.span, name=word), name, candidates, meant)
         if type_name is not None:

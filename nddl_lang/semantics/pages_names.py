@@ -5,6 +5,7 @@ from nddl_lang.semantics.codes import (
     MISPLACED_THIS,
     MISSING_OBJECT,
     MISSING_ORIGIN,
+    MISSPELT_DECLARATION,
     NAME_OF_OTHER_BLOCK,
     OWN_BASE,
     THIS_AS_OBJECT,
@@ -32,6 +33,14 @@ NAME_PAGES = (
         "member `k` of the token's object is `object.k`.",
         _ARM + "Arm::grab { force <= reach; }\n",
         _ARM + "Arm::grab { force <= object.reach; }\n",
+    ),
+    RulePage(
+        MISSPELT_DECLARATION,
+        "Nothing uses the declared name, and one that is like it is used in its place.",
+        "A name that is misspelt where it is declared is unknown wherever it is used: this is told once, at the "
+        "declaration. A use that stands alone is told itself, with the declared name as help.",
+        "int LIMTI = 3;\n" + _ARM + "Arm::grab { force <= LIMIT; }\nArm::release { duration <= LIMIT; }\n",
+        "int LIMIT = 3;\n" + _ARM + "Arm::grab { force <= LIMIT; }\nArm::release { duration <= LIMIT; }\n",
     ),
     RulePage(
         DECLARED_BELOW,

@@ -5,14 +5,15 @@ stand at the top level. All offsets are absolute, as the piece is not finished y
 """
 
 import re
+from collections.abc import Sequence
 
 from nddl_lang.syntax.brackets import Brackets
 from nddl_lang.syntax.codes import MISSING, STRAY_BRACE, SUPERFLUOUS, UNCLOSED_BRACE
 from nddl_lang.syntax.piece import Piece
 from nddl_lang.text.diagnostic import Edit, Fix, Note
 
-_PARAMETERS = frozenset(("BASETYPE", "filter"))
-_MEMBERS = _PARAMETERS | {"predicate", "action"}
+_TYPES = frozenset(("BASETYPE", "filter"))
+_MEMBERS = _TYPES | {"predicate", "action"}
 _LINE = re.compile(r"\n([ \t]*)(//[^\n]*|[^\s])")
 # Not possessive: Python up to 3.11.2 misplaces a group behind a possessive one. Each line is read in one way only.
 _NEXT_LINE = re.compile(r"(?:[ \t\r\f]*(?://[^\n]*)?\n)*([ \t]*)(\}|(?:predicate|action)(?![A-Za-z0-9_$]))?")
@@ -32,14 +33,19 @@ def open_head(piece: Piece, brackets: Brackets, base: int, head: int, kind: str)
     match kinds[head]:
         case "class":
             is_constructor = kind == "(" and piece.texts[at:] == [piece.texts[head + 1]]
-            is_member = kind == ";" and kinds[at : at + 2] == ["IDENT", "IDENT"]
+            is_member = kind == ";" and begins_declaration(kinds, at)
             is_missing = first in _MEMBERS or is_constructor or is_member
         case "enum":
             is_missing = first == "IDENT" and kind == "}"
         case _:
-            is_missing = kind == ";" and (first in _PARAMETERS or kinds[at : at + 2] == ["IDENT", "IDENT"])
+            is_missing = kind == ";" and begins_declaration(kinds, at)
     if is_missing:
         put_in(piece, brackets, base, at)
+
+
+def begins_declaration(kinds: Sequence[str], at: int) -> bool:
+    """Whether the lexemes from `at` on begin with a type, as a variable's declaration does."""
+    return not _TYPES.isdisjoint(kinds[at : at + 1]) or kinds[at : at + 2] == ["IDENT", "IDENT"]
 
 
 def put_in(piece: Piece, brackets: Brackets, base: int, at: int) -> None:

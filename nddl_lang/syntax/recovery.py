@@ -9,6 +9,7 @@ from bisect import bisect_left
 from typing import Any
 
 from nddl_lang.syntax.advice import advise, advise_operator, describe_found
+from nddl_lang.syntax.braces import begins_declaration
 from nddl_lang.syntax.builder import Builder, Maker
 from nddl_lang.syntax.codes import (
     EQUALITY_SIGN,
@@ -44,7 +45,6 @@ _TURNED = {("-", ">"): ".", (":", "="): "=", ("=", ">"): ">=", ("=", "<"): "<=",
 _VALUE_ENDS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", ")", "]", "}"))
 _LISTS = frozenset(("(", "SET"))
 _LITERALS = frozenset(("INT", "FLOAT", "STRING", "BOOL"))
-_TYPES = frozenset(("BASETYPE", "filter"))
 _MODIFIERS = frozenset(("const", "constexpr", "static", "final", "var", "let"))
 _OPENERS = {")": "(", "]": "[", "}": "SET"}
 _OPEN = frozenset(("(", "[", "{", "SET"))
@@ -189,9 +189,8 @@ class Recovery:
     def _end_declaration(self, first: int, index: int) -> bool:
         """Read the comma before a type as the `;` that it was meant to be: `float metres, float weight;`."""
         kinds = self._kinds
-        is_type = kinds[index] in _TYPES or kinds[index : index + 2] == ["IDENT", "IDENT"]
-        is_declared = kinds[first] in _TYPES or kinds[first : first + 2] == ["IDENT", "IDENT"]
-        if index - 1 <= first or kinds[index - 1] != "," or not is_type or not is_declared:
+        is_between = begins_declaration(kinds, first) and begins_declaration(kinds, index)
+        if index - 1 <= first or kinds[index - 1] != "," or not is_between:
             return False
         if not self._is_quiet:
             fix = Fix("write `;`", (Edit(self._b.at(index - 1), ";"),))

@@ -12,7 +12,7 @@ import pytest
 
 from checker.batch.pool import Batch, fly_all
 from checker.batch.process import Flyer, WorkerError, keeping_a_worker
-from checker.batch.result import MissionResult, read_result, write_result
+from checker.batch.result import MissionResult, read_record, write_record
 from checker.batch.store import Run, StoreError, open_store
 from checker.batch.worker import Load, Task
 from checker.mission import read_mission
@@ -80,7 +80,7 @@ def fly(load: Load, seeds: range, workers: int, time_limit: float = 30.0) -> lis
 
 def test_one_and_two_workers_agree() -> None:
     one, two = fly(load_linked, range(100), 1), fly(load_linked, range(100), 2)
-    assert [write_result(result) for result in one] == [write_result(result) for result in two]
+    assert [write_record(result) for result in one] == [write_record(result) for result in two]
     assert {result.verdict for result in one} == {Verdict.PASS, Verdict.FAIL}
 
 
@@ -103,7 +103,7 @@ def test_a_mission_of_a_batch_flown_alone_has_the_same_trace() -> None:
 
 def test_a_result_survives_json() -> None:
     results = fly(load_linked, range(40), 1)
-    assert [read_result(write_result(result)) for result in results] == results
+    assert [read_record(MissionResult, write_record(result)) for result in results] == results
     failed = next(result for result in results if result.verdict is Verdict.FAIL)
     assert failed.has_trace
     assert failed.outcome is not None
@@ -253,5 +253,5 @@ def test_whatever_an_event_carries_survives_json() -> None:
     goal = OpenGoal("rover", "At", (("n", domain),), reason, 1)
     outcome = Outcome(7, 5, 9, abort, (Draw("P", 4, 1.5, 1.0),), events, (goal,))
     result = MissionResult(1, 7, Judgement(Verdict.FAIL, "F4", reason), outcome, has_trace=True)
-    assert read_result(write_result(result)) == result
-    assert write_result(read_result(write_result(result))) == write_result(result)
+    assert read_record(MissionResult, write_record(result)) == result
+    assert write_record(read_record(MissionResult, write_record(result))) == write_record(result)

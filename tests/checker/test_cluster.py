@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from checker.batch.pool import Batch
-from checker.batch.result import MissionResult, write_result
+from checker.batch.result import MissionResult, write_record
 from checker.batch.worker import Fly, Load, Task
 from checker.oracle import Verdict
 from nddlc.main import run
@@ -54,7 +54,7 @@ def load_mortal(agent: AgentConfiguration) -> Fly:
 @pytest.mark.slow
 def test_a_cluster_gives_what_workers_give(address: str) -> None:
     there, here = fly_there(address, load_linked, range(40)), fly(load_linked, range(40), 2)
-    assert [write_result(result) for result in there] == [write_result(result) for result in here]
+    assert [write_record(result) for result in there] == [write_record(result) for result in here]
 
 
 @pytest.mark.slow

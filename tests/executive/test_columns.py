@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from checker.batch.result import MissionResult, read_result, write_result
+from checker.batch.result import MissionResult, read_record, write_record
 from checker.figures import Figures
 from checker.mission import read_mission
 from checker.oracle import judge
@@ -139,9 +139,9 @@ def test_a_sent_trace_is_the_same_trace() -> None:
 def test_a_kept_trace_is_the_same_trace() -> None:
     outcome = flown()[0]
     sent = replace(outcome, events=pickle.loads(pickle.dumps(outcome.events)))
-    texts = {write_result(MissionResult(1, 3, judge(each), each, True)) for each in (outcome, sent)}
+    texts = {write_record(MissionResult(1, 3, judge(each), each, True)) for each in (outcome, sent)}
     assert len(texts) == 1
-    found = read_result(texts.pop()).outcome
+    found = read_record(MissionResult, texts.pop()).outcome
     assert found == outcome
 
 

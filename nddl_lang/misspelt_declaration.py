@@ -1,0 +1,85 @@
+"""A name misspelt where it is declared: one message there, in place of one at each place that uses it."""
+
+import re
+from collections.abc import Iterable, Sequence
+
+from nddl_lang.semantics.codes import (
+    CONSTRUCTOR_NAME,
+    MISSPELT_DECLARATION,
+    UNKNOWN_CLASS,
+    UNKNOWN_ENUM_VALUE,
+    UNKNOWN_MEMBER,
+    UNKNOWN_NAME,
+    UNKNOWN_PREDICATE,
+    UNKNOWN_TOKEN_VARIABLE,
+    UNKNOWN_TYPE,
+)
+from nddl_lang.syntax.nodes import Identifier
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
+from nddl_lang.text.source import Source
+
+_CODES = frozenset(
+    (
+        CONSTRUCTOR_NAME,
+        UNKNOWN_CLASS,
+        UNKNOWN_ENUM_VALUE,
+        UNKNOWN_MEMBER,
+        UNKNOWN_NAME,
+        UNKNOWN_PREDICATE,
+        UNKNOWN_TOKEN_VARIABLE,
+        UNKNOWN_TYPE,
+    )
+)
+_TYPES = frozenset((UNKNOWN_CLASS, UNKNOWN_TYPE))
+_FEWEST = 2  # uses; a single one is as likely to be misspelt itself
+_MOST_NOTES = 3
+_WORD = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)|[A-Za-z_$][A-Za-z0-9_$]*", re.DOTALL)
+
+
+def name_misspelt_declaration(
+    sources: Iterable[Source], found: Sequence[Diagnostic], declared: Iterable[Identifier]
+) -> tuple[Diagnostic, ...]:
+    """`found`, where a name that is unknown wherever it stands is told once, at the declaration that was meant.
+
+    That is the one of the `declared` names which every message proposes, in the same text, and which nothing uses.
+    """
+    groups: dict[tuple[Source, str, str], list[Diagnostic]] = {}
+    for each in found:
+        if each.code in _CODES and (meant := _meant(each)) is not None:
+            groups.setdefault((each.span.source, each.span.text, meant), []).append(each)
+    if not groups:
+        return tuple(found)
+    words = {source: _words(source) for source in sources}
+    declarations = {each.name: each for each in declared}
+    told: dict[Diagnostic, Diagnostic | None] = {}
+    for (source, used, name), complaints in groups.items():
+        declaration = declarations.get(name)
+        if declaration is None or declaration.span.source is not source:
+            continue
+        is_unused = sum(each.get(name, 0) for each in words.values()) == 1
+        is_type = any(each.code in _TYPES for each in complaints)  # a variable may be called like the type meant
+        uses = len(complaints) if is_type or used in declarations else words[source].get(used, 0)
+        if is_unused and uses >= _FEWEST:
+            told |= dict.fromkeys(complaints)
+            told[complaints[0]] = _told_there(declaration, used, complaints)
+    return tuple(kept for each in found if (kept := told.get(each, each)) is not None)
+
+
+def _meant(complaint: Diagnostic) -> str | None:
+    """The name that the complaint proposes to write in place of the one it is about."""
+    edits = complaint.fixes[0].edits if complaint.fixes else ()
+    return edits[0].text if len(edits) == 1 and edits[0].span == complaint.span else None
+
+
+def _words(source: Source) -> dict[str, int]:
+    """How often each word stands in a text, comments left out."""
+    count: dict[str, int] = {}
+    for each in _WORD.findall(source.text):
+        count[each] = count.get(each, 0) + 1
+    return count
+
+
+def _told_there(declaration: Identifier, used: str, complaints: Sequence[Diagnostic]) -> Diagnostic:
+    notes = tuple(Note("used here", each.span) for each in complaints[:_MOST_NOTES])
+    fix = Fix(f"write `{used}`", (Edit(declaration.span, used),), safe=False)
+    return MISSPELT_DECLARATION.at(declaration.span, notes=notes, fixes=(fix,), name=declaration.name, used=used)
