@@ -198,7 +198,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             belongs += _AGREES * ((edit.begin, edit.new) in site.agreeing)
             return 1.5 - _IDLE * usage.is_swapped(edit) - belongs
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
-            return 1.0 + _OCTAVE * _octaves(edit) + _DIGIT * (_digits(edit.new) - _digits(edit.old))
+            far = 0.0 if site.named and float(edit.old) == 0.0 else _octaves(edit)  # who names a number has one
+            return 1.0 + _OCTAVE * far + _DIGIT * (_digits(edit.new) - _digits(edit.old))
         case EditKind.ARGUMENTS if is_put_in_order(edit, site):
             return 0.0
         case EditKind.PROMISE:

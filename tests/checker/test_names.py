@@ -299,3 +299,5 @@ Boat::Stay { wait == SLIDE; }
     for old, new, name, bare in (("0", "5", "SLIDE = 0;", "wait == 0;"), ("1", "10", "STEP = 1;", "wait == k + 1;")):
         soon, late = (delay_of(*edit(found, text, old, new), usage) for text in (name, bare))
         assert soon is not None and late is not None and soon < late
+    named, bare_zero = (edit(found, text, "0", "5") for text in ("SLIDE = 0;", "wait == 0;"))
+    assert cost_of(*named, usage) < cost_of(*bare_zero, usage)
