@@ -7,10 +7,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from enum import Enum
 from functools import cache, partial
-from itertools import repeat
 from operator import attrgetter
 from types import UnionType
-from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Any, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
 from checker.batch.kept_trace import read_trace, write_trace
 from checker.losses import NO_LOSSES, Losses
@@ -123,22 +122,48 @@ def _plain_fields(kind: Any, value: Any) -> dict[str, Any]:
 
 def _read(kind: Any, value: Any) -> Any:
     """The value of type `kind` that `write_record` turned into `value`."""
+    read = _reader(kind)
+    return value if read is None else read(value)
+
+
+@cache
+def _reader(kind: Any) -> Callable[[Any], Any] | None:
+    """What makes a value of type `kind` of JSON; None where that is the value already."""
     if _is_record(kind):
-        hints = _hints(kind)
-        return kind(**{name: _read(hints[name], item) for name, item in value.items()})
+        return partial(_read_fields, kind, {})
     if _is_enum(kind):
-        return kind(value)
+        return cast(Callable[[Any], Any], kind)
     origin: Any = get_origin(kind)
     inner = get_args(kind)
-    if origin is Sequence and isinstance(value, dict):
-        return read_trace(value, partial(_read, inner[0]))
-    if origin in (tuple, Sequence):
-        kinds = repeat(inner[0]) if origin is Sequence or inner[-1] is Ellipsis else inner
-        return tuple(_read(one, item) for one, item in zip(kinds, value, strict=False))
-    if origin in (Union, UnionType):
-        chosen = next((one for one in inner if _fits(one, value)), None)
-        return value if chosen is None else _read(chosen, value)
-    return value
+    if origin is Sequence:
+        return partial(_read_sequence, inner[0])
+    if origin is tuple:
+        return partial(_read_all, inner[0]) if inner[-1] is Ellipsis else partial(_read_each, inner)
+    return partial(_read_one_of, inner) if origin in (Union, UnionType) else None
+
+
+def _read_fields(kind: Any, readers: dict[str, Callable[[Any], Any] | None], value: dict[str, Any]) -> Any:
+    if not readers:  # only now: records may hold others of their own type
+        readers |= {name: _reader(hint) for name, hint in _hints(kind).items()}
+    return kind(**{name: item if (read := readers[name]) is None else read(item) for name, item in value.items()})
+
+
+def _read_sequence(kind: Any, value: Any) -> Any:
+    return read_trace(value, partial(_read, kind)) if isinstance(value, dict) else _read_all(kind, value)
+
+
+def _read_all(kind: Any, value: list[Any]) -> tuple[Any, ...]:
+    read = _reader(kind)
+    return tuple(value) if read is None else tuple(map(read, value))
+
+
+def _read_each(kinds: tuple[Any, ...], value: list[Any]) -> tuple[Any, ...]:
+    return tuple(_read(one, item) for one, item in zip(kinds, value, strict=False))
+
+
+def _read_one_of(kinds: tuple[Any, ...], value: Any) -> Any:
+    chosen = None if value is None else next((one for one in kinds if _fits(one, value)), None)
+    return value if chosen is None else _read(chosen, value)
 
 
 def _fits(kind: Any, value: Any) -> bool:
@@ -162,6 +187,7 @@ def _fields(kind: Any) -> tuple[tuple[str, ...], tuple[Any, ...], Callable[[Any]
     return names, tuple(one.default for one in fields(kind)), read
 
 
+@cache
 def _needed(kind: Any) -> set[str]:
     """The fields without a default."""
     return {one.name for one in fields(kind) if one.default is MISSING}

@@ -107,9 +107,10 @@ class _Propagation:
         queue, distance, via, done, source = call.queue, call.distance, call.via, call.done, call.node
         count, upper = self.count, self.upper
         while queue:
-            length, node = divmod(heappop(queue), count)
-            if node in done or length > distance[node]:
+            node = heappop(queue) % count
+            if node in done:
                 continue
+            length = distance[node]
             if length >= 0:
                 done.add(node)
                 self._add(node, source, length, call)
@@ -120,10 +121,10 @@ class _Propagation:
                 return node
             done.add(node)
             for edge in upper[node]:
-                earlier, weight, is_lower, _ = edge
-                total = length + weight
+                earlier = edge[0]
+                total = length + edge[1]
                 # The vehicle cannot be both at once and as late as it may.
-                if total < distance[earlier] and not (is_lower and earlier == source):
+                if total < distance[earlier] and not (edge[2] and earlier == source):
                     distance[earlier] = total
                     via[earlier] = (edge, node)
                     heappush(queue, total * count + earlier)

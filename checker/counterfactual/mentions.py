@@ -13,6 +13,11 @@ from checker.mutation.edits import EditKind, EditSite, SmallEdit
 _PATH = re.compile(r"[A-Za-z_]\w*(?:\.\w+)*")
 _DECLARED = re.compile(r"\w+\s+(\w+)\s*(?:=(.*))?;", re.DOTALL)
 _SET = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==")
+_END = re.compile(r"\b(?:start|end)\b")
+_LOCAL, _CHILD = 1.5, 0.5  # what a mention of a local variable counts, and of a parameter of another token
+_NAMING = (EditKind.NAME, EditKind.POINT, EditKind.TOKEN)
+_OWN_END = ("end", "duration")
+_CALL = re.compile(r"\s*\w+\s*\(")
 _SAME = re.compile(r"\s*([\w.]+)\s*==\s*([\w.]+)\s*;")
 
 
@@ -24,6 +29,7 @@ class Mentions:
         self._locals: dict[object, set[str]] = defaultdict(set)
         self._set: dict[object, Counter[str]] = defaultdict(Counter)
         self._read: dict[object, Counter[str]] = defaultdict(Counter)
+        self._called: dict[object, Counter[str]] = defaultdict(Counter)  # by constraints, which may set them too
         self._declared: dict[str, set[str]] = defaultdict(set)
         self._of_rule: dict[str, Counter[str]] = defaultdict(Counter)
         for site in sites:
@@ -43,12 +49,14 @@ class Mentions:
                 self._set[scope][first.group(1)] += 1
             for name in _PATH.findall(text, skipped):
                 self._read[scope][name] += 1
+                self._called[scope][name] += skipped == 0 and _CALL.match(text) is not None
             self._of_rule[site.rule].update(_PATH.findall(text))
 
-    def gain(self, edit: SmallEdit, site: EditSite) -> int:
-        """1 where an edit mentions what lacked it, less 1 where it takes that from the old name."""
+    def gain(self, edit: SmallEdit, site: EditSite) -> float:
+        """How much more is mentioned that lacked it than with the old name; 1 for a parameter of the rule."""
         is_set = self.is_set_by(edit, site)
-        return self._lacks(edit.new, site, is_set, 0) - self._lacks(edit.old, site, is_set, 1)
+        lacking = self._weight(edit.new, site) * self._lacks(edit.new, site, is_set, 0)
+        return lacking - self._weight(edit.old, site) * self._lacks(edit.old, site, is_set, 1)
 
     def case_gain(self, edit: SmallEdit, site: EditSite) -> int:
         """1 where another line of the rule has the old value of a condition too, less 1 where one has the new value."""
@@ -60,14 +68,30 @@ class Mentions:
         is_local = edit.old in self._locals[_scope(site)]
         return is_local and self.is_set_by(edit, site) and self._lacks(edit.old, site, True, 1)
 
+    def frees(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether nothing says any more what a local variable is: `rest <= ceil(storing)` for `==`."""
+        found = _SET.match(site.text)
+        if edit.old != "==" or found is None or found.group(1) not in self._locals[_scope(site)]:
+            return False
+        return self._set[_scope(site)][found.group(1)] <= 1
+
     def is_set_by(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether an edit changes what a line sets: the left side of `==`."""
         return bool(_SET.match(site.text)) and not site.text[: edit.begin - site.begin].strip()
 
-    def likeness(self, edit: SmallEdit, site: EditSite) -> int:
-        """1 where both sides of `==` have one name then, as in `child.depth == depth`, less 1 where they have it."""
+    def likeness(self, edit: SmallEdit, site: EditSite) -> float:
+        """1 where both sides of `==` have one name then, as in `child.depth == depth`, less 1 where they have it.
+
+        Half as much where a line then speaks of starts alone, or of ends.
+        """
         first, last = edit.begin - site.begin, edit.end - site.begin
-        return _is_alike(site.text[:first] + edit.new + site.text[last:]) - _is_alike(site.text)
+        new = site.text[:first] + edit.new + site.text[last:]
+        gain = float(_is_alike(new) - _is_alike(site.text))
+        return gain or 0.5 * (_is_of_one_end(new) - _is_of_one_end(site.text)) * (edit.kind is EditKind.POINT)
+
+    def _weight(self, name: str, site: EditSite) -> float:
+        """What a mention counts: nobody declares a variable for nothing, others may care for a token's parameters."""
+        return _LOCAL if name in self._locals[_scope(site)] else _CHILD if "." in name else 1.0
 
     def _lacks(self, name: str, site: EditSite, is_set: bool, but: int) -> bool:
         """Whether a name is too little used, without `but` mentions of this very line."""
@@ -75,14 +99,19 @@ class Mentions:
             return self._counts[name] <= but
         scope = _scope(site)
         if name in self._locals[scope]:
-            return (self._set if is_set else self._read)[scope][name] <= but
+            set_by, read = self._set[scope][name], self._read[scope][name]
+            if is_set:
+                return set_by + self._called[scope][name] <= but
+            return read <= but or set_by + read <= 1 + but
+        if name in _OWN_END:
+            return sum(self._of_rule[site.rule][one] for one in _OWN_END) <= but
         is_variable = "." in name or name in self._declared[site.rule]
         return is_variable and self._of_rule[site.rule][name] <= but
 
 
 def is_doubled(edit: SmallEdit, site: EditSite) -> bool:
     """Whether a name stands twice in a line, of which an edit takes one away."""
-    return edit.kind is EditKind.NAME and _PATH.findall(site.text).count(edit.old) > 1
+    return edit.kind in _NAMING and _PATH.findall(site.text).count(edit.old) > 1
 
 
 def _scope(site: EditSite) -> object:
@@ -92,3 +121,7 @@ def _scope(site: EditSite) -> object:
 def _is_alike(text: str) -> bool:
     sides = _SAME.fullmatch(text)
     return sides is not None and sides.group(1).rpartition(".")[2] == sides.group(2).rpartition(".")[2]
+
+
+def _is_of_one_end(text: str) -> bool:
+    return len(set(_END.findall(text))) == 1

@@ -32,6 +32,7 @@ _MOST_FOLLOW_UPS = 3
 _FEW = 3  # numbers so small that one more is much
 _LATER = 0.7  # what is no number, where most missions pass
 _SIDE = 0.1  # when it is tried whether a resource is consumed or produced: there is no third
+_BETWEEN = 0.5  # when a number is tried twice or half as large, where it is not known which is better
 _LATE = 3.0  # later by so much: what is tried when all likelier edits have been
 _DROP = 3.0
 _KINDS = 0.5  # how much the number of lines counts at which an edit of the kind can be made
@@ -72,6 +73,8 @@ _AGREES = 1.5  # odds that both sides of `==` are of one type
 _VALUE = 1.7  # of another value: few lines have one, so their number says little
 _CASE = 1.0  # odds that no two conditions of a rule ask for the same value
 _UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
+_FREED = 2.0  # odds that a line which alone says what a variable is says it with `==`
+_FLOW = 2.0  # odds that a resource is both consumed and produced
 _SUM = 1.5  # how much the odds count of a sign that stands between the same words elsewhere
 _RARE = 0.3  # all other words
 _LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
@@ -188,13 +191,15 @@ def _structural(edit: SmallEdit, usage: Usage) -> float:
 def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     match edit.kind:
         case EditKind.RELATION | EditKind.COMPARISON | EditKind.SIGN:
-            return 1.0 + _UNUSUAL * usage.odds(edit, site)
+            freed = _FREED * usage.mentions.frees(edit, site)
+            return 1.0 + _UNUSUAL * usage.odds(edit, site) + freed
         case EditKind.LIMIT:
             belongs = _KIN * usage.gain(edit, site) - _LAST_USE * usage.strands(edit)
             belongs += _AGREES * ((edit.begin, edit.new) in site.agreeing)
             return 1.5 - _IDLE * usage.is_swapped(edit) - belongs
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
-            return 1.0 + _OCTAVE * _octaves(edit) + _DIGIT * (_digits(edit.new) - _digits(edit.old))
+            far = 0.0 if site.named and float(edit.old) == 0.0 else _octaves(edit)  # who names a number has one
+            return 1.0 + _OCTAVE * far + _DIGIT * (_digits(edit.new) - _digits(edit.old))
         case EditKind.ARGUMENTS if is_put_in_order(edit, site):
             return 0.0
         case EditKind.PROMISE:
@@ -203,6 +208,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return 0.0  # a reactor that is asked for nothing
         case EditKind.GOAL:
             return _WISHED
+        case EditKind.PREDICATE if edit.old in _EVENTS:
+            return 3.0 - _FLOW * (not usage.counts[edit.new])
         case EditKind.OPERATOR | EditKind.PREDICATE | EditKind.MISSION:
             return 3.0
         case EditKind.VALUE:
@@ -271,11 +278,20 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.CONSTANT:
             if float(edit.new) <= 0.0 < float(edit.old):
                 return _LATE
-            tightens = usage.directions.of(edit, site) == (-1 if _direction(edit) else 1)
-            soon = 1.2 if tightens else -0.3
-            return soon if _is_farthest(edit, site) else 1.2 if _octaves(edit) >= 1.0 else None
+            way = usage.directions.of(edit, site)
+            between = _BETWEEN if way == 0 else 1.2  # too much may be as bad as too little
+            if not _is_farthest(edit, site):
+                return between if _octaves(edit) >= 1.0 else None
+            # A zero in a rule seldom stands for a number, nor does the 1 of a count: `next.k == k + 1`.
+            is_telling = site.named or (float(edit.old) != 0.0 and not _is_step(edit, site))
+            return 1.2 if way == (-1 if _direction(edit) else 1) else -0.3 if is_telling else _BETWEEN
         case EditKind.OFF_BY_ONE:
             return 0.4 if abs(float(edit.old)) <= _FEW else None
+
+
+def _is_step(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether a number is a 1 that is added or taken away."""
+    return edit.old == "1" and site.text[: edit.begin - site.begin].rstrip().endswith(("+", "-"))
 
 
 def _is_farthest(edit: SmallEdit, site: EditSite) -> bool:

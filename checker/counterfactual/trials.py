@@ -29,6 +29,7 @@ _REACH = 0.4  # the same of a constant, of which there are many
 _TURN, _PLACE = 0.3, 0.1  # how much later each further edit of one line is tried, at one place and at another
 _MOST_OUTSIDE = 8  # changes of the mission file
 _TOLD = 3  # small changes of models beside which a goal is not doubted
+_NAMESAKE = 0.2  # how much later a name is tried at each further line of a rule
 _CONFIRMED = 3  # causes that are tried on other missions too
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
 HEAVY = 10.0  # damage of a mission that passes without a goal
@@ -159,6 +160,7 @@ def try_out(
     failed = missions.failed
     trials = _Trials(missions, fly, bounds)
     turns = Turns(beside)
+    named: Counter[tuple[str, tuple[int, int], str]] = Counter()
     for candidate in (*last, *candidates):
         earlier: Counter[int] = Counter()
         far = max(candidate.far - candidate.nearer - _CONSTANT * candidate.site.is_number, 0.0)
@@ -169,6 +171,9 @@ def try_out(
             if edit.kind is not EditKind.VALUE:  # of which there are few
                 at += _TURN * earlier[edit.begin] + _PLACE * len(earlier)
                 earlier[edit.begin] += 1
+            if edit.kind is EditKind.NAME:  # what lacks a mention lacks it at one line
+                at += _NAMESAKE * named[candidate.site.file, candidate.site.scope, edit.new]
+                named[candidate.site.file, candidate.site.scope, edit.new] += 1
             turns.add(at, candidate, edit)
     reserve = min(_CONFIRMED * (len(failed) - 1 + len(missions.passed)), bounds.flights // 4)
     course = _course(failed[0])

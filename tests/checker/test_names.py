@@ -195,3 +195,109 @@ def test_the_levels_of_a_store_may_be_in_the_wrong_order(tmp_path: Path, levels:
     ]
     usage = usage_of([site])
     assert ((delay_of(swapped[0], site, usage) or 0.0) < 0.0) is is_soon
+
+
+SEA = """#include "Resources.nddl"
+float CURRENT = [0.1 0.9];
+float CRUISE;
+CRUISE = 1.2;
+class Thruster extends Timeline { predicate Drive { float distance; } }
+class Sonar extends Timeline { predicate Scan { } predicate Off { } }
+Thruster::Drive {
+    float current;
+    float speed;
+    float time;
+    current == sampledParameter(CURRENT);
+    speed == CRUISE * current;
+    mulEq(speed, time, distance);
+    duration == ceil(time);
+    if (distance <= 9.0) {
+        speed == CRUISE;
+    }
+    any(Reservoir.produce use);
+    use.quantity == 20.0;
+}
+Sonar::Scan {
+    float storing;
+    int rest;
+    storing == sampledParameter(CURRENT);
+    contains(Thruster.Drive drive);
+    rest == ceil(drive.distance);
+    drive.start + rest == end;
+}
+Sonar::Off {
+    contains(Thruster.Drive leg);
+    leg.end + 3 == leg.end;
+}
+"""
+
+
+@pytest.fixture
+def sea(tmp_path: Path) -> list[EditSite]:
+    """The sites of a simulator."""
+    path = tmp_path / "sea.nddl"
+    path.write_text(SEA)
+    return sites_of(load_graph(path, ()))
+
+
+@pytest.mark.parametrize(
+    ("meant", "other"),
+    [
+        # `time` would be in one line alone, `storing` is in none but that which draws it.
+        (("speed == CRUISE * current;", "*", "+"), ("duration == ceil(time);", "time", "distance")),
+        (("rest == ceil(drive.distance);", "drive.distance", "storing"), ("CRUISE = 1.2;", "1.2", "12.0")),
+        # Nothing else says what `rest` is.
+        (("speed == CRUISE * current;", "*", "+"), ("rest == ceil(drive.distance);", "==", "<=")),
+        # What is only filled is hardly meant.
+        (("any(Reservoir.produce use);", "produce", "consume"), ("use.quantity == 20.0;", "20.0", "200.0")),
+    ],
+)
+def test_a_change_is_likelier_that_leaves_nothing_unused_or_unsaid(
+    sea: list[EditSite], meant: tuple[str, str, str], other: tuple[str, str, str]
+) -> None:
+    usage = usage_of(sea)
+    assert cost_of(*edit(sea, *meant), usage) < cost_of(*edit(sea, *other), usage)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        ("drive.start + rest == end;", "drive.start", "drive.end"),  # two ends are related more often
+        ("leg.end + 3 == leg.end;", "leg.end", "end"),  # the rule says nothing else of its own end
+    ],
+)
+def test_an_end_is_likelier_meant_where_ends_are_spoken_of(sea: list[EditSite], change: tuple[str, str, str]) -> None:
+    assert usage_of(sea).fitness(*edit(sea, *change)) > 0.0
+
+
+def test_a_constraint_that_is_called_may_set_what_it_names(sea: list[EditSite]) -> None:
+    usage = usage_of(sea)
+    change, site = edit(sea, "speed == CRUISE * current;", "speed", "time")
+    assert usage.mentions.gain(change, site) == 0.0
+
+
+def test_a_number_is_tried_twice_as_large_soon_where_more_may_be_worse(sea: list[EditSite]) -> None:
+    usage = usage_of(sea)
+    twice, much = (delay_of(*edit(sea, "use.quantity == 20.0;", "20.0", new), usage) for new in ("40.0", "200.0"))
+    assert twice is not None and much is not None and much < twice < 1.0
+
+
+def test_a_zero_or_a_step_is_doubted_sooner_where_it_has_a_name(tmp_path: Path) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_text(
+        """int SLIDE;
+SLIDE = 0;
+int STEP;
+STEP = 1;
+class Boat extends Timeline { predicate Go { int wait; int k; } predicate Stay { int wait; } }
+Boat::Go { wait == 0; wait == k + 1; k <= STEP; }
+Boat::Stay { wait == SLIDE; }
+"""
+    )
+    found = sites_of(load_graph(path, ()))
+    usage = usage_of(found)
+    for old, new, name, bare in (("0", "5", "SLIDE = 0;", "wait == 0;"), ("1", "10", "STEP = 1;", "wait == k + 1;")):
+        soon, late = (delay_of(*edit(found, text, old, new), usage) for text in (name, bare))
+        assert soon is not None and late is not None and soon < late
+    named, bare_zero = (edit(found, text, "0", "5") for text in ("SLIDE = 0;", "wait == 0;"))
+    assert cost_of(*named, usage) < cost_of(*bare_zero, usage)
