@@ -9,6 +9,7 @@ from checker.counterfactual.ranking import Causes
 from checker.counterfactual.rendering import causes_data, claim_text, effort_text
 from checker.excerpts import Excerpts
 from checker.findings import Fault
+from checker.names import mission_name
 from checker.oracle import CODE_NAMES
 from checker.proofs.conflict import Confirmation
 from checker.rendering import cause_number, confirmation_text, failure_text, step_label, step_text
@@ -24,7 +25,7 @@ def story_text(story: Story, run_id: str, excerpts: Excerpts, most: int = MOST_C
     """The story as `nddlc explain` prints it, with so many causes."""
     code = story.judgement.code
     lines = [
-        f"mission {story.number} of run {run_id} failed at tick {story.last_tick} of {story.final_tick} "
+        f"{mission_name(story.number)} of run {run_id} failed at tick {story.last_tick} of {story.final_tick} "
         f"({code}: {CODE_NAMES.get(code, 'unknown')})",
         f"  {failure_text(story.judgement, story.open_goals, story.refusal)}",
         "",
@@ -114,8 +115,10 @@ def result_text(result: MissionResult, run_id: str) -> str:
     outcome = result.outcome
     if outcome is None:
         reason = f"could not be flown: {failure_text(result.judgement)}"
-        return f"mission {result.number} of run {run_id} (seed {result.seed}) {reason}\n{result.detail}\n"
-    lines = [f"mission {result.number} of run {run_id} passed: it reached tick {outcome.last_tick}; nothing to explain"]
+        return f"{mission_name(result.number)} of run {run_id} (seed {result.seed}) {reason}\n{result.detail}\n"
+    lines = [
+        f"{mission_name(result.number)} of run {run_id} passed: it reached tick {outcome.last_tick}; nothing to explain"
+    ]
     lines += [f"  {draw.parameter} = {number(draw.value)} from tick {draw.tick} on" for draw in outcome.draws]
     return "\n".join(lines) + "\n"
 

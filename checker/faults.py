@@ -40,7 +40,8 @@ def faults_of(
     seeker: Seeker,
     let: Interruptible = uninterrupted,
 ) -> list[tuple[Bucket, Causes]]:
-    """The faults behind buckets, each with its causes: what the first cause of one mends, or the same line, is one.
+    """The faults behind buckets, each with its causes: what the first cause of one mends, or the same line where it was
+    flown, is one.
 
     Where a signal ends the search, buckets that it did not come to are faults of their own.
     """
@@ -74,7 +75,7 @@ def _mended(found: Sequence[tuple[Bucket, Causes]], failed: MissionResult, seeke
 
 
 def _at_one_line(found: Sequence[tuple[Bucket, Causes]], causes: Causes) -> int | None:
-    if causes.first is None:
+    if causes.first is None or causes.first.change is None:  # what was not flown joins nothing
         return None
     line = (causes.first.place.file, causes.first.place.line)
     firsts = [one.first for _, one in found]

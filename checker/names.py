@@ -1,4 +1,4 @@
-"""Name files so that the name is the same in every checkout and on every machine."""
+"""Name files, so that the name is the same in every checkout and on every machine, and missions."""
 
 from functools import cache
 from pathlib import Path, PurePosixPath
@@ -16,3 +16,8 @@ def relative_name(name: str, root: Path) -> str:
     if path.is_relative_to(folder.parent):
         return f"../{path.relative_to(folder.parent).as_posix()}"
     return Path(name).as_posix()
+
+
+def mission_name(number: int) -> str:
+    """A mission of a run as commands take it; `mission k3` is the third failure that the store has kept."""
+    return f"mission k{-number}" if number < 0 else f"mission {number}"

@@ -186,7 +186,9 @@ def event_line(event: Event) -> str:
         case EventKind.OBSERVATION:
             return f"{who} publishes {event.timeline} = {token_text(event.predicate, event.arguments)}"
         case EventKind.REQUEST:
-            return f"{who} requests {token_text(event.predicate, event.arguments)}{about}"
+            end = event.bounds.end[1] if event.bounds is not None else HALF_INF
+            until = f", to end by tick {end}" if end < HALF_INF else ""
+            return f"{who} requests {token_text(event.predicate, event.arguments)}{about}{until}"
         case EventKind.SAMPLE:
             return f"{who} draws {event_text(event)}"
         case EventKind.RELAX:

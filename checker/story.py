@@ -1,7 +1,9 @@
 """One failed mission in, its story out: the steps from what was drawn to the line where the agent gave up."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import islice
 
 from checker.batch.result import MissionResult
 from checker.causes import (
@@ -35,6 +37,7 @@ from runtime.executive.outcome import (
     SourcePlace,
 )
 
+_TIMES = ("start", "end", "duration")
 _MOST_LINES = 8  # that rule out what was tried
 _MOST_LOST = 12  # events that are told of a mission that lost too much
 
@@ -101,7 +104,11 @@ def tell(
     until = _decided_at(result, outcome)
     draws = _draws(outcome, agent, influence, parameters, until)
     shown = _tokens_of(outcome, influence, parameters, until)
-    indices = {*shown, *(index for index in events_to_abort(outcome, parameters) if index >= min(shown, default=0))}
+    indices = {
+        *shown,
+        *_requests(outcome, conflict),
+        *(index for index in events_to_abort(outcome, parameters) if index >= min(shown, default=0)),
+    }
     way = [outcome.events[index] for index in sorted(indices)]
     if draws:
         way = [event for event in way if event.kind is not EventKind.SAMPLE]
@@ -127,6 +134,20 @@ def tell(
         confirmation,
         missed_after(outcome),
     )
+
+
+def _requests(outcome: Outcome, conflict: Conflict | None) -> Iterator[int]:
+    """The last requests of reactors for what the conflict says was asked for by some time."""
+    for element in conflict.elements if conflict is not None else ():
+        is_timed = any(variable.name in _TIMES for variable in element.variables)
+        if element.kind is ElementKind.REQUEST and element.place is None and element.token is not None and is_timed:
+            wanted = element.token.predicate.rpartition(".")[2]
+            sent = (
+                index
+                for index, event in enumerate(outcome.events)
+                if event.kind is EventKind.REQUEST and event.reactor and event.predicate == wanted
+            )
+            yield from islice(sorted(sent, reverse=True), 1)
 
 
 def _lost(outcome: Outcome, limit: Limit) -> list[Event]:

@@ -23,6 +23,7 @@ from checker.judge.written_values import DocumentError
 from checker.logged import Departure, MissionLog, ReactorLog, first_departure, read_mission_log, with_players
 from checker.mission import read_mission
 from checker.models import ModelSet, load_models
+from checker.names import mission_name
 from checker.oracle import Verdict
 from checker.pinned import pinned
 from nddlc.check import STORE
@@ -178,7 +179,9 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
     graph = focused(causal_graph(result.outcome), verbose) if result.outcome is not None else None
     if style in _DRAWN:
         if graph is None or not graph.ends:
-            raise Unusable(f"mission {result.number} of run {found.run_id} has no causes to draw", "it did not fail")
+            raise Unusable(
+                f"{mission_name(result.number)} of run {found.run_id} has no causes to draw", "it did not fail"
+            )
         click.echo(_DRAWN[style](graph), nl=False)
         return 0
     if found.of_log and style == "text":

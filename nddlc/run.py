@@ -2,7 +2,7 @@
 
 import sys
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -69,15 +69,14 @@ def _report(name: str, flight: Flight) -> str:
     outcome, judgement = flight.outcome, flight.judgement
     lines = [gantt(outcome, columns() or WIDTH)]
     events = single_events(outcome.events)
-    for _, alike in groupby((event for event in events if event.kind in _TOLD), key=_sort_of_event):
-        lines.append(_told(list(alike)))
+    lines += [_told(alike) for alike in sorts_of(event for event in events if event.kind in _TOLD)]
     counts = Counter(event.kind for event in events)
     done = sum(event.kind is EventKind.ACHIEVED and (event.request or 0) < 0 for event in events)
     lines.append(
         f"{name}, seed {flight.settings.seed}: {judgement.verdict.value}"
         f"{f' {judgement.code}' if judgement.code else ''} at tick {outcome.last_tick}\n"
     )
-    if judgement.reason is not None:
+    if judgement.verdict is not Verdict.PASS:
         lines.append(f"  {failure_text(judgement, refusal=missed_after(outcome))}\n")
     lines.append(
         f"  goals achieved {done}, open {len(outcome.open_goals)}; requests {counts[EventKind.REQUEST]}, "
@@ -93,6 +92,18 @@ def _report(name: str, flight: Flight) -> str:
         lines += [f"    and {len(places) - _MOST_LINES} more\n"] if len(places) > _MOST_LINES else []
         lines.append("  what to change: `nddlc check` tries it out, `nddlc explain` then tells how it came\n")
     return "".join(lines)
+
+
+def sorts_of(events: Iterable[Event]) -> list[list[Event]]:
+    """Events by what they are told as: those of one sort that follow each other, also where two sorts take turns."""
+    sorts: list[tuple[Any, list[Event]]] = []
+    for sort, alike in groupby(events, key=_sort_of_event):
+        before = next((of for known, of in sorts[-2:] if known == sort), None)
+        if before is None:
+            sorts.append((sort, list(alike)))
+        else:
+            before += alike
+    return [alike for _, alike in sorts]
 
 
 def _sort_of_event(event: Event) -> tuple[Any, ...]:

@@ -9,6 +9,7 @@ from collections.abc import Container, Sequence
 
 from checker.counterfactual.demands import Demands
 from checker.mutation.edits import EditSite, SmallEdit
+from nddl_lang.semantics.constraints import CONSTRAINTS
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _COMPARED = re.compile(r"([^<>=!&|?]+)(<=|<|>=|>)([^<>=!&|?]+);", re.DOTALL)
@@ -41,6 +42,12 @@ class Directions:
         if site.named:
             return self._of.get(site.named, 0) or self._demands.of(site.named)
         return _direction(site.text, at) or self._demands.at(site, at)
+
+
+def sets_value(demand: str) -> bool:
+    """Whether a demand gives a variable its value: without it that would be open, and the mission fail all the same."""
+    row = CONSTRAINTS.get(demand.partition("(")[0].strip())
+    return "==" in demand or (row is not None and (row.result is not None or row.name == "eq"))
 
 
 def is_put_in_order(edit: SmallEdit, site: EditSite) -> bool:

@@ -1,8 +1,13 @@
 """A failed mission in, candidates of its mission file out, the likeliest first: tried where no model line mends.
 
-What a goal asks that the conflict speaks of is tried in any case. Of what else goals ask for, the earliest goal that
+What a goal asks that the conflict speaks of is tried in any case, and so is when goals may come of a reactor whose
+request set the time that the conflict speaks of. Of what else goals ask for, the earliest goal that
 was not achieved is tried; of a property that is violated, its ticks.
 """
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
 
 from checker.causes import failed_by
 from checker.counterfactual.candidates import Candidate, Suspicion
@@ -12,9 +17,11 @@ from compiler.program import DomainConstant
 from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.events import single_events
 from runtime.executive.messages import Arguments
-from runtime.executive.outcome import ElementKind, EventKind, Outcome
+from runtime.executive.outcome import ConflictElement, ElementKind, EventKind, Outcome
 
 _SPOKEN, _DEAF, _BROKEN, _LOST, _ABORTED, _ASKED, _OTHERS = 0.0, 0.0, 0.5, 1.0, 2.0, 2.5, 3.0
+_TIMES = ("start", "end", "duration")
+_MOST_ASKERS = 4  # goals behind a request, the most urgent first
 _GIVEN_UP = (EventKind.REJECT, EventKind.REFUSE)
 
 
@@ -27,13 +34,15 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
     conflict = failed_by(outcome).conflict
     elements = conflict.elements if conflict is not None else ()
     asked = [one.place for one in elements if one.kind is ElementKind.REQUEST and one.place is not None]
-    broken = next((one.name for one in outcome.properties if not one.is_kept), "") if outcome.abort is None else ""
+    is_judged = outcome.abort is None and not outcome.open_goals  # by its properties
+    broken = next((one.name for one in outcome.properties if not one.is_kept), "") if is_judged else ""
+    behind = _behind_requests(mission, ended, elements, outcome)
     due = _due(mission, outcome)
     found = []
     for (table, number), sites in mission_sites(mission).items():
         if table == "goal":
             goal = mission.agent.goals[number]
-            if (goal.timeline, goal.predicate) not in given_up and not broken:
+            if (goal.timeline, goal.predicate) not in given_up and not broken and number not in behind:
                 continue
             far = _LOST if (goal.timeline, goal.predicate) in given_up else _OTHERS
         elif table == "asked":
@@ -51,9 +60,41 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
                 far = _DEAF  # it is asked for nothing
         for site in sites:
             is_spoken = any(site.holds(site.file, place.line) for place in asked)
+            if table == "goal" and not is_spoken:  # later where others were asked for it in time, or at any time
+                is_spoken = number in behind
+                site = replace(site, edits=site.edits[-1:] if is_spoken else site.edits[:1])
             source = Suspicion.CONFLICT if is_spoken or table == "property" else Suspicion.TRACE
             found.append(Candidate(site, _SPOKEN if is_spoken else far, source))
     return sorted(found, key=lambda one: one.far)
+
+
+def _behind_requests(
+    mission: Mission, ended: str, elements: Sequence[ConflictElement], outcome: Outcome
+) -> frozenset[int]:
+    """The goals, not achieved, of reactors that asked the one that ended for something by the time in the conflict."""
+    is_timed = any(
+        variable.name in _TIMES
+        for one in elements
+        if one.kind is ElementKind.REQUEST and one.place is None
+        for variable in one.variables
+    )
+    if not is_timed:
+        return frozenset()
+    asking, known = {ended}, set[str]()
+    while asking != known:
+        known = set(asking)
+        owned = {line for one in mission.agent.reactors if one.name in known for line in one.internal}
+        asking |= {one.name for one in mission.agent.reactors if owned & set(one.external)}
+    lines = {line for one in mission.agent.reactors if one.name in asking - {ended} for line in one.internal}
+    done = {one.request for one in single_events(outcome.events) if one.kind is EventKind.ACHIEVED}
+    found = [
+        (latest, number)
+        for number, goal in enumerate(mission.agent.goals)
+        if goal.timeline in lines and -number - 1 not in done
+        for latest in [min((one[1] for one in (goal.start, goal.end) if one is not None), default=math.inf)]
+        if latest < math.inf
+    ]
+    return frozenset(number for _, number in sorted(found)[:_MOST_ASKERS])
 
 
 def _due(mission: Mission, outcome: Outcome) -> int:

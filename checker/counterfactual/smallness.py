@@ -11,9 +11,9 @@ from collections.abc import Container, Sequence
 from dataclasses import dataclass
 
 from checker.counterfactual.affinity import WORD, Affinity
-from checker.counterfactual.bounds import Directions, is_put_in_order
+from checker.counterfactual.bounds import Directions, is_put_in_order, sets_value
 from checker.counterfactual.mentions import Mentions, is_doubled
-from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
+from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit, inverse_of
 
 _SAMPLED = re.compile(r"sampledParameter\s*\(\s*(\w+)")
 _POINTS = re.compile(r"(\w+\.)?(start|end)\s*[<>=!]+\s*(\w+\.)?(start|end)\s*;")  # two ends of tokens
@@ -33,6 +33,7 @@ _FEW = 3  # numbers so small that one more is much
 _LATER = 0.7  # what is no number, where most missions pass
 _SIDE = 0.1  # when it is tried whether a resource is consumed or produced: there is no third
 _BETWEEN = 0.5  # when a number is tried twice or half as large, where it is not known which is better
+_SWAPPED = 0.4  # when arguments change places: few lines have such
 _LATE = 3.0  # later by so much: what is tried when all likelier edits have been
 _DROP = 3.0
 _KINDS = 0.5  # how much the number of lines counts at which an edit of the kind can be made
@@ -68,9 +69,11 @@ _COMPARISONS = {
 _SIGNED = {"time sum": {"+": 4.0, "-": 1.0}, "sum": {"+": 2.0, "-": 1.0}, "number": {}}
 _MENTION, _ALIKE, _DOUBLED = 2.0, 1.5, 0.7  # odds that what lacks a mention is meant, or the same name on both sides
 _WISHED = 5.5  # of another wish: it is the user's
+_RESULT = 2.2  # of a result that changes places: other numbers by far come of it, and any limit is kept or none
 _PROMISED = 4.5  # of another property: what it promises less always keeps
 _AGREES = 1.5  # odds that both sides of `==` are of one type
 _VALUE = 1.7  # of another value: few lines have one, so their number says little
+_TURNED = 1.5  # odds of a relation of two named tokens that says the same with the tokens swapped
 _CASE = 1.0  # odds that no two conditions of a rule ask for the same value
 _UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
 _FREED = 2.0  # odds that a line which alone says what a variable is says it with `==`
@@ -142,6 +145,8 @@ class Usage:
         wanted = self.affinity.sign_of(edit, site) if edit.kind is EditKind.COMPARISON else ""
         if edit.kind is EditKind.SIGN:
             odds += _SUM * math.log(max(self.sums[_sum(edit, site)], 1) / (1 + self.sums[_sum(edit, site, edit.new)]))
+        if sort == "between" and edit.new == inverse_of(edit.old):
+            odds -= _TURNED
         odds += _NAMED * ((old[:1] == wanted[:1]) - (new[:1] == wanted[:1])) if wanted else 0.0
         return max(odds, _LEAST_ODDS) if sort == "condition" else odds
 
@@ -176,6 +181,11 @@ def is_loosening(edit: SmallEdit, site: EditSite) -> bool:
     )
 
 
+def is_doubling(edit: SmallEdit) -> bool:
+    """Whether a number becomes twice or half as large."""
+    return edit.kind is EditKind.CONSTANT and float(edit.new) in (2.0 * float(edit.old), 0.5 * float(edit.old))
+
+
 def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     """How unlikely an edit is the repair; what takes a demand away altogether costs most."""
     form = _DROP if is_loosening(edit, site) else _form(edit, site, usage) + _structural(edit, usage)
@@ -206,6 +216,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return _PROMISED
         case EditKind.MISSION if edit.old == "0":
             return 0.0  # a reactor that is asked for nothing
+        case EditKind.ARGUMENTS if sets_value(site.text) and not site.text.startswith("eq"):
+            return _RESULT
         case EditKind.GOAL:
             return _WISHED
         case EditKind.PREDICATE if edit.old in _EVENTS:
@@ -250,7 +262,9 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return 0.5 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
         case EditKind.ARGUMENTS if is_put_in_order(edit, site):
             return _KIN_SOON
-        case EditKind.ARGUMENTS | EditKind.OPERATOR:
+        case EditKind.ARGUMENTS:
+            return _SWAPPED + _LATER * usage.passing
+        case EditKind.OPERATOR:
             return 0.5 + _LATER * usage.passing
         case EditKind.NAME:
             fitness = usage.fitness(edit, site)
@@ -264,7 +278,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.POINT | EditKind.TOKEN | EditKind.PREDICATE:
             return 0.5 - 0.5 * usage.fitness(edit, site) + _LATER * usage.passing
         case EditKind.DROPPED_CONSTRAINT:
-            return _LATE if "==" in edit.old or edit.old.startswith("eq") else 0.3
+            return _LATE if sets_value(edit.old) else 0.3
         case EditKind.DROPPED_BRANCH:
             return 1.0
         case EditKind.RELATION:

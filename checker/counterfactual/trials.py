@@ -13,8 +13,17 @@ from enum import StrEnum
 from checker.batch.interruption import InterruptedSearch
 from checker.batch.result import MissionResult
 from checker.causes import failed_by
+from checker.counterfactual.bounds import sets_value
 from checker.counterfactual.candidates import Candidate, Suspicion
-from checker.counterfactual.smallness import Usage, alternatives, cost_of, delay_of, follow_ups, is_loosening
+from checker.counterfactual.smallness import (
+    Usage,
+    alternatives,
+    cost_of,
+    delay_of,
+    follow_ups,
+    is_doubling,
+    is_loosening,
+)
 from checker.counterfactual.turns import Turns
 from checker.coverage import left_out
 from checker.losses import GoalFate
@@ -36,6 +45,7 @@ HEAVY = 10.0  # damage of a mission that passes without a goal
 _STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
 _NEAR = 0.25  # distance of what a conflict speaks of
 _PROBE = -0.1  # when such a line is left out: where that helps, it is at fault or what it compares is
+_OTHER_WAY = 0.3  # when the number where it breaks is doubled or halved, whichever looks worse
 _CONSTANT = 1.0  # how much nearer a constant counts: it stands for its number in the line that reads it
 _SLOW = 8.0  # times the slowest flight before that passed or failed: a change may leave a search without an end
 _LEAST_SECONDS = 3.0  # that a flight may take
@@ -167,6 +177,8 @@ def try_out(
         for delay, edit in _first_edits(candidate.site, usage):
             if _is_probe(edit) and _is_spoken(candidate):
                 delay = min(delay, _PROBE)
+            if is_doubling(edit) and _is_culprit(candidate):
+                delay = min(delay, _OTHER_WAY)
             at = (_REACH if candidate.site.is_number else _NEARNESS) * far + delay
             if edit.kind is not EditKind.VALUE:  # of which there are few
                 at += _TURN * earlier[edit.begin] + _PLACE * len(earlier)
@@ -230,6 +242,11 @@ def try_out(
     return Trials(tuple(ranked), tuple(candidates), lines, trials.flights, ended)
 
 
+def _is_culprit(candidate: Candidate) -> bool:
+    """Whether a line, or the constant that it compares with, is where the conflict gave way."""
+    return candidate.source is Suspicion.CONFLICT and candidate.far == 0.0
+
+
 def _is_spoken(candidate: Candidate) -> bool:
     """Whether the conflict that ended the mission speaks of a line."""
     return candidate.source is Suspicion.CONFLICT and candidate.far <= _NEAR
@@ -237,7 +254,7 @@ def _is_spoken(candidate: Candidate) -> bool:
 
 def _is_probe(edit: SmallEdit) -> bool:
     """Whether an edit leaves out a limit or a relation: a value that is not set would fail all the same."""
-    is_limit = edit.kind is EditKind.DROPPED_CONSTRAINT and "==" not in edit.old and "Eq" not in edit.old
+    is_limit = edit.kind is EditKind.DROPPED_CONSTRAINT and not sets_value(edit.old)
     return is_limit or (edit.kind is EditKind.RELATION and edit.new == "any")
 
 

@@ -11,7 +11,8 @@ from typing import Any
 
 from checker.mutation.names import other_names, other_points, other_tokens, other_values, tautologies
 from checker.mutation.scope import LineScope, Scopes
-from nddl_lang.semantics.constraints import CONSTRAINTS
+from nddl_lang.semantics.constraints import CONSTRAINTS, ConstraintRow
+from nddl_lang.semantics.relations import RELATIONS
 from nddl_lang.syntax.includes import LIBRARY, LoadedModules
 from nddl_lang.syntax.nodes import (
     Assignment,
@@ -26,6 +27,7 @@ from nddl_lang.syntax.nodes import (
     GoalStatement,
     IfStatement,
     Instance,
+    IntervalExpr,
     IntLiteral,
     NewExpr,
     PathExpr,
@@ -53,6 +55,8 @@ _OTHER_SIGNS = {
     "!=": ("==",),
 }
 _OTHER_NAMES = {"leq": ("eq", "lt"), "lt": ("leq", "eq"), "eq": ("leq", "neq"), "neq": ("eq",)}
+_COMMUTING = ("addEq", "mulEq", "multEq", "eqSum", "eqProduct", "eqMinimum", "eqMaximum", "maxf", "minf")
+_FEW_ARGUMENTS = 3  # of a constraint whose result may be mistaken for an input
 _OUTSIDE = LineScope()  # of a rule
 
 
@@ -270,7 +274,7 @@ class _Reader:
             for argument in node.arguments
         }
         apart = sampled | {node.path for node in descendants(root) if isinstance(node, Instance)}
-        empty = {one for node in descendants(root) for one in tautologies(node)}
+        empty = {one for node in descendants(root) for one in (*tautologies(node), *self._emptied(node))}
         for node in descendants(root):
             if node not in apart:
                 seen = {(node.span, node.span.text)} | empty  # 9 halved is 9 less 5
@@ -279,6 +283,14 @@ class _Reader:
                     if new != span.text and (span, new) not in seen:
                         seen.add((span, new))
                         yield self._edit(kind, span, new)
+
+    def _emptied(self, node: Any) -> Iterator[tuple[Span, str]]:
+        """What would leave an interval without a value: no model has that."""
+        if isinstance(node, IntervalExpr):
+            lower, upper = node.lower, node.upper
+            if isinstance(lower, IntLiteral | FloatLiteral) and isinstance(upper, IntLiteral | FloatLiteral):
+                yield from ((span, new) for _, span, new in self._changes(lower) if float(new) > upper.value)
+                yield from ((span, new) for _, span, new in self._changes(upper) if float(new) < lower.value)
 
     def _renamed(self, node: Any, names: LineScope) -> Iterator[tuple[EditKind, Span, str]]:
         """What else may be named in a rule; nothing outside of rules."""
@@ -324,13 +336,16 @@ class _Reader:
             case UnaryExpr(op="-", operand=operand, span=span):
                 yield EditKind.SIGN, span, operand.span.text
             case Relation(relation=relation, bounds=()):
-                for other in _RELATIONS:
+                for other in dict.fromkeys((*_RELATIONS, inverse_of(relation.name))):
                     yield EditKind.RELATION, relation.span, other
+            case Relation(relation=relation):  # bounds mean something else in most others
+                yield EditKind.RELATION, relation.span, inverse_of(relation.name)
             case CallConstraint(name=name, arguments=arguments):
                 known = CONSTRAINTS.get(name.name)
                 for other_name in _OTHER_NAMES.get(known.name if known is not None else name.name, ()):
                     yield EditKind.COMPARISON, name.span, other_name
-                yield from _swapped(arguments)
+                for first, second in _exchangeable(known, len(arguments)):
+                    yield _exchanged(arguments[first], arguments[second])
             case CallExpr(arguments=arguments):
                 yield from _swapped(arguments)
             case NewExpr(arguments=arguments):
@@ -340,12 +355,32 @@ class _Reader:
                 pass
 
 
+def inverse_of(relation: str) -> str:
+    """The relation that says the same with the tokens swapped; the same one where there is no other."""
+    row = RELATIONS.get(relation)
+    return row.inverse if row is not None and row.inverse is not None else relation
+
+
 def _swapped(arguments: tuple[Expr, ...]) -> Iterator[tuple[EditKind, Span, str]]:
     """The first two arguments in the other order."""
     if len(arguments) > 1:
-        first, second = arguments[0].span, arguments[1].span
-        between = first.source.text[first.finish : second.begin]
-        yield EditKind.ARGUMENTS, first.to(second), second.text + between + first.text
+        yield _exchanged(arguments[0], arguments[1])
+
+
+def _exchangeable(row: ConstraintRow | None, count: int) -> Iterator[tuple[int, int]]:
+    """Which arguments of a constraint may stand for each other: those of a sum say the same in any order."""
+    result = row.result % count if row is not None and row.result is not None and count else None
+    if row is None or row.name not in _COMMUTING:
+        first = [number for number in range(count) if number != result][:2]
+        yield from [(first[0], first[1])] if len(first) == 2 else []
+    if result is not None and count <= _FEW_ARGUMENTS:
+        yield from ((min(number, result), max(number, result)) for number in range(count) if number != result)
+
+
+def _exchanged(first: Expr, second: Expr) -> tuple[EditKind, Span, str]:
+    """Two arguments, each in the place of the other."""
+    between = first.span.source.text[first.span.finish : second.span.begin]
+    return EditKind.ARGUMENTS, first.span.to(second.span), second.span.text + between + first.span.text
 
 
 def _lines(span: Span) -> tuple[int, int]:

@@ -34,8 +34,7 @@ def mission_sites(mission: Mission) -> dict[tuple[str, int], list[EditSite]]:
             at = next(k for k in _numbers(text, "reactor") if _is_named(text, ("reactor", k, "name"), reactor.name))
             found["reactor", number] = list(_sites(text, ("reactor", at), values))
         for number in range(len(mission.agent.goals)):
-            anytime = f"[0, {final}]"
-            found["goal", number] = list(_sites(text, ("goal", number), dict.fromkeys(_TIMES, anytime)))
+            found["goal", number] = list(_times(mission, number))
             found["asked", number] = list(_asked(mission, number))
         for number, kept in enumerate(mission.agent.properties):
             limits: dict[str, object] = {
@@ -64,6 +63,16 @@ def _sites(text: MissionText, table: tuple[str, int], values: Mapping[str, objec
         if value is not None and path in text.places:
             kind = EditKind.PROMISE if table[0] == "property" else EditKind.MISSION
             yield _site(text, path, kind, [str(value)])
+
+
+def _times(mission: Mission, number: int) -> Iterator[EditSite]:
+    """The times of a goal: it may come at any time, or only be later."""
+    goal, text, final = mission.agent.goals[number], mission.text, mission.agent.final_tick
+    for key, bounds in zip(_TIMES, (goal.start, goal.end, goal.duration), strict=True):
+        path = ("goal", number, key)
+        if bounds is not None and path in text.places:
+            others = dict.fromkeys((f"[0, {final}]", f"[{bounds[0]}, {final}]"))
+            yield _site(text, path, EditKind.MISSION, list(others))
 
 
 def _promised(text: MissionText, table: tuple[str, int]) -> Iterator[EditSite]:

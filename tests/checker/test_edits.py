@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from checker.counterfactual.bounds import sets_value
 from checker.mutation.choice import mutants_of
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, edited, sites_of
 from checker.mutation.variant import load_graph, open_over, with_edit
@@ -103,3 +104,33 @@ def test_mutants_take_turns_of_kinds_and_differ_by_seed(model: Path) -> None:
     assert len({edit.kind for edit in everything[:9]}) == 9
     assert len(set(everything)) == len(everything) == sum(len(site.edits) for site in sites(model))
     assert drawn(1) == everything != drawn(2)
+
+
+TURNED = """class T extends Timeline { predicate P { float a; float b; float c; } }
+T::P {
+    contains(T.P one);
+    contains(T.P two);
+    one starts_before two;
+    one before [1 5] two;
+    mulEq(a, b, c);
+    divEq(a, b, c);
+}
+"""
+
+
+def test_a_relation_is_turned_round_and_a_result_changes_places_with_what_it_comes_from(tmp_path: Path) -> None:
+    path = tmp_path / "t.nddl"
+    path.write_text(TURNED)
+    assert "starts_after" in changes(path, "one starts_before two;")[EditKind.RELATION]
+    assert changes(path, "one before [1 5] two;")[EditKind.RELATION] == {"after"}
+    constants = changes(path, "one before [1 5] two;")[EditKind.CONSTANT]
+    assert {"2", "50"} <= constants and "6" not in constants  # no interval is left without a value
+    assert changes(path, "mulEq(a, b, c);")[EditKind.ARGUMENTS] == {"c, b, a", "c, b"}  # a times b is b times a
+    assert changes(path, "divEq(a, b, c);")[EditKind.ARGUMENTS] == {"b, a", "c, b, a", "c, b"}
+
+
+@pytest.mark.parametrize(
+    ("demand", "sets"), [("mulEq(a, b, c);", True), ("a == b;", True), ("leq(a, b);", False), ("a <= b;", False)]
+)
+def test_a_demand_that_gives_a_value_is_known(demand: str, sets: bool) -> None:
+    assert sets_value(demand) is sets

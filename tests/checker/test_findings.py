@@ -12,8 +12,12 @@ from checker.causes import draws_behind, events_to_abort
 from checker.conditions.find import find_condition
 from checker.conditions.flights import Refly
 from checker.conditions.rendering import condition_text
+from checker.counterfactual.ranking import Causes, Claim, RankedLine
+from checker.counterfactual.trials import Missions
 from checker.culprit import culprit_of
+from checker.faults import faults_of
 from checker.mission import read_mission
+from checker.mutation.edits import EditKind, SmallEdit
 from checker.oracle import Judgement, Verdict
 from checker.sampling.seeds import mission_seed
 from runtime.executive.configuration import AgentConfiguration
@@ -50,6 +54,29 @@ def test_failures_at_one_line_are_one_bucket() -> None:
     assert 2 <= len(bucket.missions) <= 20
     assert bucket.share == len(bucket.missions) / 200
     assert bucket.first_tick == bucket.last_tick == 265
+
+
+class Stub:
+    """A seeker that tells one line of every failure."""
+
+    def __init__(self, cause: RankedLine) -> None:
+        self.cause = cause
+
+    def causes(self, missions: Missions) -> Causes:
+        return Causes((self.cause,))
+
+    def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
+        return False
+
+
+def test_only_a_line_that_was_flown_makes_one_fault_of_two_groups() -> None:
+    results = fly(load_linked)
+    (bucket,) = group_failures(results)
+    groups = [replace(bucket, missions=(one,), parts=(one,)) for one in bucket.missions[:2]]
+    flown = RankedLine(LIMIT, "", Claim.MENDS, SmallEdit(EditKind.CONSTANT, "a.nddl", 0, 1, "1", "2", 1))
+    assert [one.parts for one, _ in faults_of(groups, results, Stub(flown))] == [bucket.missions[:2]]
+    loose = RankedLine(LIMIT, "", Claim.LOOSE_END, variable="x")
+    assert [one.parts for one, _ in faults_of(groups, results, Stub(loose))] == [(one,) for one in bucket.missions[:2]]
 
 
 def reflying(load: Load) -> Refly:

@@ -7,6 +7,7 @@ import pytest
 from checker.mission import read_mission
 from checker.mutation.edits import EditKind
 from checker.mutation.mission_edits import agent_with, mission_sites
+from nddlc.main import run
 from tests.checker.checked import faults_of
 
 pytestmark = pytest.mark.once
@@ -152,3 +153,87 @@ def test_what_a_goal_asks_for_is_named_where_the_planner_found_no_place_for_it(
     (fault,) = faults_of(tmp_path, capsys, files)
     told = [(one["file"], one["change"]["old"], one["change"]["new"]) for one in fault["causes"]["ranked"]]
     assert told[0] == ("mission.toml", "500", "50")
+
+
+ARM = """#include "TREX.nddl"
+class Arm extends AgentTimeline { predicate Rest { } predicate Move { } Arm(Mode m) { super(m, "Rest"); } }
+class Step extends AgentTimeline { predicate Wait { } predicate Do { int n; } Step(Mode m) { super(m, "Wait"); } }
+"""
+THREE = {
+    "arm.nddl": ARM,
+    "boss.nddl": """#include "arm.nddl"
+class Plan extends AgentTimeline { predicate Free { } predicate Job { int n; } Plan(Mode m) { super(m, "Free"); } }
+Plan::Job { contains(Step.Do step); step.n == n; step.end == end; }
+Plan plan = new Plan(Internal);
+Step step = new Step(External);
+close();
+""",
+    "hand.nddl": """#include "arm.nddl"
+Step::Do { contains(Arm.Move move); move.end == end; }
+Step step = new Step(Internal);
+Arm arm = new Arm(External);
+close();
+""",
+    "sim.nddl": """#include "arm.nddl"
+Arm::Move { duration == 30; }
+Arm arm = new Arm(Internal);
+close();
+""",
+    "mission.toml": """[mission]
+name = "arm"
+final_tick = 100
+[[reactor]]
+name = "boss"
+model = "boss.nddl"
+latency = 1
+lookahead = 100
+internal = ["plan"]
+external = ["step"]
+[[reactor]]
+name = "hand"
+model = "hand.nddl"
+latency = 1
+lookahead = 100
+internal = ["step"]
+external = ["arm"]
+[[reactor]]
+name = "sim"
+model = "sim.nddl"
+latency = 0
+lookahead = 1
+internal = ["arm"]
+[[goal]]
+timeline = "plan"
+predicate = "Job"
+start = [4, 10]
+mandatory = true
+parameters = { n = 1 }
+[[goal]]
+timeline = "plan"
+predicate = "Job"
+start = [5, 20]
+mandatory = true
+parameters = { n = 2 }
+[check]
+missions = 2
+""",
+}
+
+
+def test_a_goal_is_named_for_which_others_were_asked_for_too_soon(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (fault,) = faults_of(tmp_path, capsys, THREE)
+    assert fault["reactor"] == "hand"  # which knows no goal, only until when it was asked for
+    told = {(one["text"], one["change"]["new"]) for one in fault["causes"]["ranked"] if one["change"] is not None}
+    assert ("start = [5, 20]", "[5, 100]") in told
+
+
+def test_the_story_tells_who_asked_for_it_and_by_when(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name, text in THREE.items():
+        (tmp_path / name).write_text(text)
+    kept = ("--store", str(tmp_path / "runs.sqlite"), "--flights", "0")
+    run(["check", str(tmp_path / "mission.toml"), *kept, "--workers", "1", "--output", str(tmp_path / "report")])
+    capsys.readouterr()
+    assert run(["explain", "latest", *kept]) == 0
+    assert "boss requests Do(n=1) on step, to end by tick 20" in capsys.readouterr().out

@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from nddlc.main import run
+from nddlc.run import sorts_of
+from runtime.executive.outcome import Event, EventKind, Phase
 
 ORDER = Path(__file__).parents[1] / "executive" / "missions" / "order_of_requests"
 REPAIR = Path(__file__).parents[1] / "executive" / "missions" / "repair"
@@ -96,3 +98,27 @@ def test_a_goal_that_nothing_ends_is_told_so(
     said = capsys.readouterr().out
     assert "open: Fetch: it began at tick 150, and nothing has ended it\n" in said
     assert "open: Fetch: its time to be sent had not come\n" in said
+
+
+PROPERTY = """
+[[property]]
+name = "never on a leg"
+kind = "never"
+timeline = "path"
+predicate = "Leg"
+"""
+
+
+def test_a_broken_property_is_named(mission: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = mission.read_text()
+    mission.write_text(text.replace("[check]", f"{PROPERTY}\n[check]") if "[check]" in text else text + PROPERTY)
+    code, shown = flown(capsys, "run", str(mission))
+    assert code == 1 and "FAIL P1" in shown
+    assert "  the property `never on a leg` is violated at tick " in shown
+
+
+def test_what_takes_turns_is_told_once_each() -> None:
+    first, second = (Event(1, Phase.REPAIR, EventKind.RELAX, one) for one in ("a", "b"))
+    other = Event(1, Phase.REPAIR, EventKind.REJECT, "a")
+    assert sorts_of([first, other] * 3) == [[first] * 3, [other] * 3]
+    assert sorts_of([first, second, other, first]) == [[first], [second], [other], [first]]
