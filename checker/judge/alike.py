@@ -13,7 +13,7 @@ from runtime.executive.columns import GuardColumns, RunColumns, TokenColumns, Va
 from runtime.executive.record import BodyRun, GuardRun, TokenRecord
 
 _KINDS = {"float": FLOAT, "int": INT, "bool": INT, "name": TEXT}
-_BLOCK = 8192  # rows
+_BLOCK = 16384  # rows
 _Shape = tuple["_RunShape", ...]  # of all runs of a token
 _RunShape = tuple[int, int, int, int]  # rule, how many locals, children and guards
 
@@ -101,21 +101,21 @@ class SymbolNumbers:
 
     def __init__(self, names: Sequence[str], texts: Texts) -> None:
         self._numbers = np.array([texts.number(name) for name in names], np.int64)
+        self._are_same = bool((self._numbers == np.arange(len(names))).all())
 
     def column(self, given: ValueColumn) -> Column:
         """The judge's column of one that was recorded."""
         kind, numbers = _KINDS[given.kind], given.numbers
-        if numbers.dtype != np.float64:
-            return Column(kind, self._numbers[numbers] if kind == TEXT else numbers)
-        if not given.has_open:
-            return Column(kind, numbers)
-        is_open = np.isnan(numbers)
-        if not is_open.any():  # of the rows of this part all are known
-            numbers = numbers if kind == FLOAT else numbers.astype(np.int64)
-            return Column(kind, self._numbers[numbers] if kind == TEXT else numbers)
+        is_open = np.isnan(numbers) if given.has_open else None
         if kind == TEXT:
-            known = np.where(is_open, 0, numbers).astype(np.int64)
-            return Column(kind, self._numbers[known], None, is_open)
+            known = (numbers if is_open is None else np.where(is_open, 0, numbers)).astype(np.int64)
+            return Column(kind, known if self._are_same else self._numbers.take(known), None, is_open)
+        if given.kind == "bool":
+            numbers = (numbers != 0.0).astype(float)
+        elif kind == INT:
+            numbers = np.trunc(numbers)
+        if is_open is None:
+            return Column(kind, numbers)
         return Column(kind, np.where(is_open, -np.inf, numbers), np.where(is_open, np.inf, numbers))
 
 

@@ -21,18 +21,12 @@ class Tok:
     __slots__ = ("is_cut", "key", "record", "standing", "values")
 
     def __init__(self, record: TokenRecord) -> None:
+        key, _, thing, state, duration, start, end, arguments, _, _, fate, _, _ = record
         self.record = record
-        self.key = record.key
+        self.key = key
         self.standing = self
-        self.is_cut = record.fate == "cut"
-        self.values: list[Value] = [
-            record.state.upper(),
-            record.object,
-            record.duration,
-            record.start,
-            record.end,
-            *record.arguments,
-        ]
+        self.is_cut = fate == "cut"
+        self.values: list[Value] = [state, thing, duration, start, end, *arguments]
 
     @property
     def name(self) -> str:

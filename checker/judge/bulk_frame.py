@@ -1,6 +1,6 @@
 """One run of a body for many tokens at once: the rows that plainly hold so far, and what was counted of each."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -113,10 +113,18 @@ class RowFrame:
             inner.follow(part.run)
         return inner
 
-    def use(self, column: Column) -> Column:
-        """A column that is read: rows that do not fit are left to others."""
+    def fit(self, column: Column) -> Column:
+        """A column that is read: rows that do not fit are left to the judge of single tokens."""
         if column.bad is not None:
             self.tally.need(~column.bad)
+        return column
+
+    def use(self, column: Column) -> Column:
+        """The same; rows that were never fixed are left, too."""
+        if column.bad is not None:
+            self.tally.need(~column.bad)
+        if column.upper is not None:
+            self.tally.need(column.lower == column.upper)
         return column
 
     def slot(self, slot: int) -> Column | None:
@@ -181,15 +189,10 @@ def _variable(frame: RowFrame, token: int, variable: int) -> Column:
         return unknown()
     if variable != DURATION:
         return tokens.column(variable)
-    end, start = tokens.column(END), tokens.column(START)
-    found = difference_of(end, start)
+    found = difference_of(frame.use(tokens.column(END)), frame.use(tokens.column(START)))
     if found is None:
         raise UnplainError
-    bad = np.zeros(len(found.lower), bool)
-    for mask in (end.bad, start.bad, found.bad, end.open, start.open):
-        if mask is not None:
-            bad |= mask
-    return Column(INT, found.lower.astype(np.int64), None, bad if bad.any() else None)
+    return found
 
 
 def _field_reader(base: RowRead, members: tuple[str, ...], names: VariableNames) -> RowRead:
@@ -208,12 +211,3 @@ def _field_reader(base: RowRead, members: tuple[str, ...], names: VariableNames)
         return column_of(found, texts).take(indices)
 
     return read
-
-
-def closed(columns: Sequence[Column], count: int) -> Mask | None:
-    """The rows in which all values were fixed; None if in all."""
-    found: Mask | None = None
-    for each in columns:
-        if (is_open := each.open) is not None:
-            found = ~is_open if found is None else found & ~is_open
-    return None if found is None else np.broadcast_to(found, count)

@@ -12,6 +12,8 @@ import numpy as np
 from checker.judge.columns import FLOAT, INT, TEXT, Array, Column, Mask
 from checker.judge.values import RELATIVE, TOLERANCE
 
+_AND = np.logical_and.reduce
+
 Holds = Callable[..., Mask]
 Truths = Callable[..., tuple[Mask, Mask]]  # where it holds, where it does not; in between nothing is said
 
@@ -21,11 +23,20 @@ def near(a: Column, b: Column) -> Mask:
     if a.kind == TEXT or b.kind == TEXT:
         return (a.lower == b.lower) if a.kind == b.kind else np.zeros(len(a.lower), bool)
     x, y = a.lower, b.lower
-    same = np.asarray(x == y)
-    if (a.kind == INT and b.kind == INT) or same.all():
+    same: Mask = x == y
+    if (a.kind == INT and b.kind == INT) or _all_rows(same):
         return same
+    gap = np.abs(x - y)
+    close: Mask = gap <= TOLERANCE
+    if _all_rows(close):
+        return close
     margin = TOLERANCE + RELATIVE * np.maximum(np.abs(x), np.abs(y))
-    return np.asarray(same | ((np.abs(x - y) <= margin) & np.isfinite(margin)))
+    return np.asarray(same | ((gap <= margin) & np.isfinite(margin)))
+
+
+def _all_rows(mask: Mask) -> bool:
+    """Whether something holds in all rows."""
+    return bool(_AND(mask))
 
 
 def _differ(a: Column, b: Column) -> tuple[Mask, Mask]:
@@ -39,14 +50,28 @@ def _equal(a: Column, b: Column) -> tuple[Mask, Mask]:
 
 
 def _at_most(a: Column, b: Column) -> tuple[Mask, Mask]:
-    holds = np.asarray(a.lower <= b.lower) & _are_numbers(a, b)
-    return holds, ~holds & ~near(a, b) & _are_numbers(a, b)
+    """Of whole numbers also where they were never fixed, as AGENT_CLOCK is."""
+    if not _are_numbers(a, b):
+        return np.zeros(1, bool), np.zeros(1, bool)
+    most_of_a, most_of_b = (each.lower if each.upper is None else each.upper for each in (a, b))
+    holds = np.asarray(most_of_a <= b.lower)
+    fails = a.lower > most_of_b
+    return holds, fails if a.kind == INT and b.kind == INT else fails & ~near(a, b)
+
+
+def _is_at_most(a: Column, b: Column) -> Mask:
+    return np.asarray(a.lower <= b.lower) if _are_numbers(a, b) else np.zeros(1, bool)
 
 
 def _below(a: Column, b: Column) -> tuple[Mask, Mask]:
-    numbers = _are_numbers(a, b)
-    holds = np.asarray(a.lower < b.lower) & numbers
-    return holds, ~holds & (np.asarray(a.lower == b.lower) | ~near(a, b)) & numbers
+    holds = _is_less(a, b)
+    if not _are_numbers(a, b):
+        return holds, holds
+    return holds, ~holds & (np.asarray(a.lower == b.lower) | ~near(a, b))
+
+
+def _is_less(a: Column, b: Column) -> Mask:
+    return np.asarray(a.lower < b.lower) if _are_numbers(a, b) else np.zeros(1, bool)
 
 
 def _is_below(a: Column, b: Column) -> tuple[Mask, Mask]:
@@ -55,13 +80,18 @@ def _is_below(a: Column, b: Column) -> tuple[Mask, Mask]:
 
 
 def _are_numbers(*columns: Column) -> bool:
-    return all(each.kind != TEXT for each in columns)
+    for each in columns:  # noqa: SIM110 - called for each constraint: a generator would cost more than the rest
+        if each.kind == TEXT:
+            return False
+    return True
 
 
 def truth(a: Column) -> tuple[Mask, Mask]:
     """Where a truth value, or a number, is true; and where it is false."""
-    holds = np.asarray(a.lower != 0) & _are_numbers(a)
-    return holds, ~holds & _are_numbers(a)
+    if a.kind == TEXT:
+        return np.zeros(1, bool), np.zeros(1, bool)
+    holds = np.asarray(a.lower != 0)
+    return holds, ~holds
 
 
 def _both(a: Column, b: Column) -> tuple[Mask, Mask]:
@@ -124,7 +154,11 @@ def _rest(a: Column, b: Column) -> Array:
 
 
 def _distance(xa: Column, ya: Column, xb: Column, yb: Column) -> Array:
-    return np.asarray(np.hypot(xb.lower - xa.lower, yb.lower - ya.lower))
+    return _length(xb.lower - xa.lower, yb.lower - ya.lower)
+
+
+def _length(x: Array, y: Array) -> Array:
+    return np.asarray(np.sqrt(x * x + y * y))
 
 
 def _square(a: Column, b: Column) -> Array:
@@ -170,26 +204,33 @@ def value_of(name: str, inputs: Sequence[Column]) -> Column | None:
     if known is None or not _are_numbers(*inputs):
         return None
     function, kind = known
-    found = np.asarray(function(*inputs))
-    is_whole = all(each.kind == INT for each in inputs)
-    rough = np.asarray(
-        function(*[Column(each.kind, each.lower.astype(float)) for each in inputs]) if is_whole else found
-    )
-    bad = ~(np.abs(rough) <= _HUGE) if kind == INT or is_whole else ~np.isfinite(found)
-    kind = kind or (INT if is_whole else FLOAT)
-    if kind == INT:
-        found = np.where(bad, 0, found).astype(np.int64)
-    return Column(kind, found, None, bad if bad.any() else None)
+    if not kind:
+        kind = INT
+        for each in inputs:
+            if each.kind == FLOAT:
+                kind = FLOAT
+    if kind == INT:  # exact in float64 while nothing that is added up on the way is beyond the limit
+        inputs = [Column(each.kind, each.lower.astype(float, copy=False)) for each in inputs]
+        for each in inputs if len(inputs) > 2 else ():
+            if not _all_rows(np.abs(each.lower) <= _HUGE / len(inputs)):
+                return None
+    return _within_limits(kind, np.asarray(function(*inputs)))
+
+
+def _within_limits(kind: str, found: Array) -> Column:
+    """The column of computed numbers; bad where there is none, or a whole number is not exact."""
+    holds = np.abs(found) <= _HUGE if kind == INT else np.isfinite(found)
+    if _all_rows(holds):
+        return Column(kind, found)
+    return Column(kind, np.where(holds, found, 0.0), None, ~holds)
 
 
 def difference_of(later: Column, earlier: Column) -> Column | None:
     """`later - earlier` of numbers."""
     if not _are_numbers(later, earlier):
         return None
-    found = later.lower - earlier.lower
-    is_whole = later.kind == INT and earlier.kind == INT
-    bad = ~(np.abs(found) <= _HUGE)
-    return Column(INT if is_whole else FLOAT, found, None, bad if bad.any() else None)
+    kind = INT if later.kind == INT and earlier.kind == INT else FLOAT
+    return _within_limits(kind, later.lower - earlier.lower)
 
 
 def conforms(result: Column, expected: Column) -> Mask:
@@ -203,6 +244,8 @@ def conforms(result: Column, expected: Column) -> Mask:
 
 
 def _all_equal(*columns: Column) -> Mask:
+    if len(columns) == 2:
+        return near(*columns)
     return np.asarray(reduce(np.logical_and, [near(columns[0], each) for each in columns[1:]]))
 
 
@@ -215,10 +258,10 @@ HOLDS: dict[str, Holds] = {
     "eq": _all_equal,
     "concurrent": near,
     "neq": lambda a, b: _differ(a, b)[0],
-    "leq": lambda a, b: _at_most(a, b)[0],
-    "precedes": lambda a, b: _at_most(a, b)[0],
-    "lt": lambda a, b: _below(a, b)[0],
-    "strictlyPrecedes": lambda a, b: _below(a, b)[0],
+    "leq": _is_at_most,
+    "precedes": _is_at_most,
+    "lt": _is_less,
+    "strictlyPrecedes": _is_less,
     "allDiff": _all_differ,
     "or": lambda *columns: _either(*columns)[0],
 }
@@ -230,7 +273,7 @@ def points(*columns: Column) -> Mask:
         return np.zeros(1, bool)
     ux, uy, x, y, tx, ty = (each.lower for each in columns)
     east, north = tx - x, ty - y
-    way = np.hypot(east, north)
+    way = _length(east, north)
     size = reduce(np.maximum, [np.abs(each) for each in (x, y, tx, ty)])
     turned = 4 * (TOLERANCE + RELATIVE * size) / way
     margin = TOLERANCE + turned

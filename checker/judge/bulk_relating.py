@@ -1,5 +1,7 @@
 """Judge children and relations of many tokens at once."""
 
+from math import inf
+
 import numpy as np
 
 from checker.judge.bulk_frame import RowFrame, RowStep, UnplainError, row_reader
@@ -9,7 +11,6 @@ from checker.judge.operands import VariableNames
 from checker.judge.relations import Demand, demands
 from checker.judge.tables import RowTokens
 from compiler.program import END, OBJECT, START, Child, Relate
-from runtime.executive.record import NOBODY
 
 
 def row_child(child: Child, names: VariableNames) -> RowStep:
@@ -24,13 +25,16 @@ def row_child(child: Child, names: VariableNames) -> RowStep:
         if keys is None:
             raise UnplainError
         tables, tally = frame.tables, frame.tally
-        found = tables.rows_of(keys)
-        rows = np.where(found == NOBODY, 0, found)
+        rows = tables.rows_of(keys)
+        is_missing = rows < 0
+        if is_missing.any():
+            tally.need(~is_missing)
+            rows = np.maximum(rows, 0)
         predicates = tuple(tables.predicates)
         if predicates not in fitting:
             fitting[predicates] = _fitting(predicates, child, names)
-        tally.need((found != NOBODY) & fitting[predicates].take(tables.predicate.take(rows)))
-        tokens = frame.tokens[slot] = RowTokens(tables, rows)
+        tally.need(fitting[predicates].take(tables.predicate.take(rows)))
+        tokens = frame.tokens[slot] = RowTokens.children(tables, rows)
         holder = frame.tok.column(OBJECT) if child.object == "own" else None if given is None else given(frame)
         if holder is not None:
             things = frame.use(tokens.column(OBJECT))
@@ -40,7 +44,7 @@ def row_child(child: Child, names: VariableNames) -> RowStep:
         first = frame.tokens[origin]
         if first is None:
             raise UnplainError
-        tally.need(tables.is_active.take(rows) | tables.is_merged.take(rows))
+        tally.need(tables.is_planned.take(rows))
         _relate(frame, pairs, first, tokens)
 
     return step
@@ -77,16 +81,22 @@ def _relate(frame: RowFrame, pairs: tuple[Demand, ...], origin: RowTokens, targe
         tally.need(~(tables.is_cut.take(origin.rows) | tables.is_cut.take(target.rows)))
     times = ((origin, START), (origin, END), (target, START), (target, END))
     for first, second, lower, upper in pairs:
-        a, b = (frame.use(tokens.column(variable)) for tokens, variable in (times[first], times[second]))
+        a, b = (frame.fit(tokens.column(variable)) for tokens, variable in (times[first], times[second]))
         if a.upper is None and b.upper is None:
+            if lower == upper == 0:
+                tally.judge(a.lower == b.lower)
+                continue
             gap = b.lower - a.lower
-            tally.judge((lower <= gap) & (gap <= upper))
+            holds = lower <= gap
+            if upper < inf:
+                holds &= gap <= upper
+            tally.judge(holds)
             continue
         (least_a, most_a), (least_b, most_b) = _ends(a), _ends(b)
         is_open = (least_a != most_a) | (least_b != most_b)
         holds = (least_b - most_a <= upper) & (lower <= most_b - least_a)
         if lower == upper:
-            planned = tables.is_active.take(target.rows) | tables.is_merged.take(target.rows)
+            planned = tables.is_planned.take(target.rows)
             holds &= ~is_open | ~planned | ((least_a != most_a) & (least_b != most_b))
         tally.need(holds)
         tally.more.append(~is_open)

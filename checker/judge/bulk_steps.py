@@ -6,10 +6,10 @@ import numpy as np
 
 from checker.judge.alike import GuardRows
 from checker.judge.bodies import StepMaker, Written, compile_body
-from checker.judge.bulk_frame import RowFrame, RowRead, RowStep, UnplainError, closed, row_reader
+from checker.judge.bulk_frame import RowFrame, RowRead, RowStep, UnplainError, row_reader
 from checker.judge.bulk_meanings import HOLDS, TRUTHS, conforms, difference_of, near, points, truth, value_of
 from checker.judge.bulk_relating import row_child, row_relate
-from checker.judge.columns import FLOAT, INT, TEXT, Array, Column, Mask, column_of, distinct, unknown
+from checker.judge.columns import FLOAT, INT, TEXT, Column, Mask, column_of, distinct, unknown
 from checker.judge.functions import COMPUTED
 from checker.judge.meanings import Meaning
 from checker.judge.operands import VariableNames, domain_value
@@ -49,8 +49,7 @@ def allowed(test: Domain, column: Column, frame: RowFrame) -> Mask:
         holds &= _lies_in(limit, column)
     if test.class_name:
         raise UnplainError
-    fixed = closed([column], frame.tally.count)
-    return holds if fixed is None else holds & fixed
+    return holds
 
 
 def _lies_in(limit: Value, column: Column) -> Mask:
@@ -80,16 +79,7 @@ def _variable(new: NewVariable, names: VariableNames) -> RowStep:
 
 def _count_equal(frame: RowFrame, a: Column, b: Column) -> None:
     """Count the rows in which two values are, or may be, the same."""
-    frame.use(a), frame.use(b)
-    same = near(a, b)
-    fixed = closed([a, b], frame.tally.count)
-    if fixed is not None:
-        texts = frame.tables.texts
-        rows = np.flatnonzero(~fixed)
-        same = np.array(np.broadcast_to(same, frame.tally.count))
-        pairs = zip(a.values(texts, rows), b.values(texts, rows), strict=True)
-        same[rows] = [may_be_equal(x, y) for x, y in pairs]
-    frame.tally.more.append(same)
+    frame.tally.more.append(near(frame.use(a), frame.use(b)))
 
 
 def _assign(given: Assign, names: VariableNames) -> RowStep:
@@ -107,8 +97,7 @@ def _assign(given: Assign, names: VariableNames) -> RowStep:
                 holds = np.array([may_be_equal(names[each], limit) for each in numbers], bool)[indices]
             else:
                 holds = _lies_in(limit, column)
-            fixed = closed([column], frame.tally.count)
-            frame.tally.judge(holds if fixed is None else holds & fixed)
+            frame.tally.judge(holds)
         if read is not None:
             _count_equal(frame, column, read(frame))
 
@@ -121,17 +110,14 @@ def _sample(sample: Sample, slot: int | None, names: VariableNames) -> RowStep:
 
     def step(frame: RowFrame) -> None:
         starts = frame.use(frame.tok.column(START))
-        if starts.kind != INT or starts.upper is not None:
+        if starts.kind != INT:
             raise UnplainError
-        values = frame.bench.draws(parameter, starts.lower)
+        values = frame.bench.draws(parameter, starts.lower.astype(np.int64, copy=False))
         drawn = unknown() if values is None else Column(FLOAT, values)
         if slot is not None:
             frame.slots[slot] = drawn
             return
-        value = frame.use(read(frame))
-        fixed = closed([value, drawn], frame.tally.count)
-        holds = near(value, frame.use(drawn))
-        frame.tally.judge(holds if fixed is None else holds & fixed)
+        frame.tally.judge(near(frame.use(read(frame)), frame.use(drawn)))
 
     return step
 
@@ -147,20 +133,14 @@ def _check(post: Post, meaning: Meaning, names: VariableNames) -> RowStep:
     reads = [row_reader(each, names) for each in post.operands]
     plain = _plain(post.name)
 
+    is_function = post.name in COMPUTED
+
     def step(frame: RowFrame) -> None:
         columns = [frame.use(read(frame)) for read in reads]
-        _need_numbers(post.name, columns)
+        if is_function:
+            _need_numbers(columns)
         holds = None if plain is None else plain(columns)
-        count = frame.tally.count
-        if holds is None:
-            holds = _one_by_one(meaning, columns, frame, np.arange(count))
-        else:
-            fixed = closed(columns, count)
-            if fixed is not None:
-                rows = np.flatnonzero(~fixed)
-                holds = np.array(np.broadcast_to(holds, count))
-                holds[rows] = _one_by_one(meaning, columns, frame, rows)
-        frame.tally.judge(holds)
+        frame.tally.judge(_one_by_one(meaning, columns, frame) if holds is None else holds)
 
     return step
 
@@ -177,22 +157,21 @@ def _check_loose(post: Post, meaning: Meaning, names: VariableNames) -> RowStep:
         columns = [frame.use(read(frame)) for read, one in zip(reads, ranges, strict=True) if one is None]
         parts = iter([column.values(texts, rows) for column in columns])
         given = [next(parts) if one is None else [one] * tally.count for one in ranges]
-        holds = np.array([meaning(*values) is not False for values in zip(*given, strict=True)], bool)
-        fixed = closed(columns, tally.count)
-        tally.judge(holds if fixed is None else holds & fixed)
+        tally.judge(np.array([meaning(*values) is not False for values in zip(*given, strict=True)], bool))
 
     return step
 
 
-def _need_numbers(name: str, columns: Sequence[Column]) -> None:
+def _need_numbers(columns: Sequence[Column]) -> None:
     """Leave a function of texts to others: only a child that is another token than the rule asks for has them."""
-    if name in COMPUTED and any(column.kind == TEXT for column in columns):
-        raise UnplainError
+    for each in columns:
+        if each.kind == TEXT:
+            raise UnplainError
 
 
-def _one_by_one(meaning: Meaning, columns: Sequence[Column], frame: RowFrame, rows: Array) -> Mask:
+def _one_by_one(meaning: Meaning, columns: Sequence[Column], frame: RowFrame) -> Mask:
     """Where a constraint holds, asked row by row."""
-    texts = frame.tables.texts
+    texts, rows = frame.tables.texts, np.arange(frame.tally.count)
     given = zip(*[column.values(texts, rows) for column in columns], strict=True)
     return np.array([meaning(*values) is True for values in given], bool)
 
@@ -242,11 +221,16 @@ def _define(post: Post, index: int, slot: int, names: VariableNames) -> RowStep:
     if solve is None:
         return _define_slot(slot, lambda frame: unknown())
     quick = _solved(post.name, index, len(post.operands))
+    is_function, compares = post.name in COMPUTED, post.name == "testLeq" and index == 0
 
     def make(frame: RowFrame) -> Column:
-        columns = [frame.use(read(frame)) for read in others]
-        _need_numbers(post.name, columns)
-        found = quick(columns, frame) if quick is not None and closed(columns, frame.tally.count) is None else None
+        columns = [read(frame) for read in others]
+        takes_ranges = compares and columns[0].kind == INT and columns[1].kind == INT
+        for each in columns:
+            (frame.fit if takes_ranges else frame.use)(each)
+        if is_function:
+            _need_numbers(columns)
+        found = None if quick is None else quick(columns, frame)
         if found is not None:
             return found
         texts = frame.tables.texts
@@ -265,7 +249,7 @@ def _solved(name: str, index: int, count: int) -> Callable[[list[Column], RowFra
         def told(columns: list[Column], frame: RowFrame) -> Column:
             holds, fails = test(*columns)
             frame.tally.need(holds | fails)
-            return Column(INT, holds.astype(np.int64))
+            return Column(INT, holds.astype(float))
 
         return told
     if name in COMPUTED and index == (0 if COMPUTED[name][0] == 0 else count - 1):
@@ -308,30 +292,19 @@ def _guard(guard: Guard, then: list[RowStep], otherwise: list[RowStep], names: V
 
 
 def _judge_branches(frame: RowFrame, reached: GuardRows, condition: Column) -> None:
-    """Judge which branches were taken; a guard that waits, of an input that is not given, is left open."""
+    """Judge which branches were taken; a guard that waits is left to the judge of single tokens."""
     tally = frame.tally
     yes, no = (np.ones(1, bool), np.zeros(1, bool)) if condition.kind == TEXT else truth(condition)
-    fixed = None if condition.kind == TEXT else closed([condition], tally.count)
     right = np.zeros(tally.count, bool)
-    waits = np.zeros(tally.count, bool)
     for part in reached:
-        rows = slice(None) if part.rows is None else part.rows
-        if part.branch != "waiting":
-            reached_here = np.zeros(tally.count, bool)
-            reached_here[rows] = True
-            right |= reached_here & (yes if part.branch == "then" else no)
-        elif part.is_decided:
-            tally.holds[rows] = False
+        if part.branch == "waiting":
+            continue
+        holds = yes if part.branch == "then" else no
+        if part.rows is None:
+            right |= holds
         else:
-            waits[rows] = True
-    if fixed is not None:
-        right &= fixed
-    if waits.any():
-        tally.need(right | waits)
-        tally.more.append(right)
-        tally.open.append(waits)
-    else:
-        tally.judge(right)
+            right[part.rows] = holds if len(holds) == 1 else holds.take(part.rows)
+    tally.judge(right)
 
 
 _ROWS = StepMaker(

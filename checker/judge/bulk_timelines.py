@@ -158,7 +158,7 @@ class BulkTimelines:
             is_seen &= ~start.bad
         if start.open is not None:
             is_seen &= ~start.open
-        return bool(np.isin(self.starts[rows], self.starts[is_seen]).all())
+        return set(self.starts[rows].tolist()) <= set(self.starts[is_seen].tolist())
 
     def _told_one_by_one(self, rows: Array, published: Sequence[Event], codes: Mapping[str, PredicateCode]) -> int:
         """How many publications agree with the tokens; -1 if not all plainly do."""

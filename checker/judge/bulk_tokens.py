@@ -22,7 +22,7 @@ from compiler.program import END, FIRST_PARAMETER, OBJECT, START, PredicateCode,
 from runtime.executive.columns import TokenColumns
 from runtime.executive.record import TokenRecord
 
-_FEWEST = 4  # tokens that are alike, for which a group is worth its cost
+_FEWEST = 12  # tokens that are alike, for which a group is worth its cost
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -75,7 +75,7 @@ class BulkJudge:
 
 def judge_in_bulk(judge: BulkJudge, bench: Bench, tables: Tables) -> Iterator[TokenRecord]:
     """Judge what plainly holds; yield the tokens that are left, in their order."""
-    done = ~(tables.is_active | tables.is_merged)
+    done = ~tables.is_planned
     if tables.is_ordered and tables.count:
         starts = tables.times[START]
         latest = starts.lower if starts.upper is None else starts.upper

@@ -1,7 +1,8 @@
 """Columns: a value of many tokens at once, as arrays of their lower and upper ends; texts as numbers.
 
-Whole numbers are int64 and exact, reals are float64, truth values are 0 and 1. A row whose value does not fit (a value
-of another kind, one of several values, a number beyond 2**53) is `bad`, and left to the judge of single tokens.
+Whole numbers are exact, be they int64 or float64; reals are float64, truth values are 0 and 1. A row whose value does
+not fit (a value of another kind, one of several values, a number beyond 2**53) is `bad`, and left to the judge of
+single tokens.
 """
 
 from collections.abc import Sequence
@@ -68,7 +69,7 @@ class Column:
         if bad is not None and not bad.any():
             bad = None
         if upper is not None and (lower == upper).all():
-            return Column(self.kind, lower.astype(_TYPES[self.kind]), None, bad)
+            return Column(self.kind, lower, None, bad)
         return Column(self.kind, lower, upper, bad)
 
     def part(self, first: int, last: int) -> "Column":
@@ -93,8 +94,10 @@ class Column:
         if len(self.lower) == 1:
             return [self.value(0, texts)] * len(rows)
         if self.upper is None:
-            found = self.lower[rows].tolist()
-            return [texts.names[each] for each in found] if self.kind == TEXT else found
+            found: list[Any] = self.lower[rows].tolist()
+            if self.kind == FLOAT:
+                return found
+            return [texts.names[each] for each in found] if self.kind == TEXT else list(map(int, found))
         return [self.value(row, texts) for row in rows.tolist()]
 
 

@@ -10,10 +10,11 @@ import numpy as np
 from checker.judge.alike import SymbolNumbers
 from checker.judge.columns import INT, TEXT, Array, Column, Mask, Texts, column_of, distinct, joined
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START
-from runtime.executive.columns import ORIGINS, TokenColumns, table_of, value_column
+from runtime.executive.columns import ORIGINS, TokenColumns, has_nan, table_of, value_column
 from runtime.executive.record import NOBODY, ReactorRecord, TokenRecord
 
 _SPARSE = 4
+_LONG = 8  # rows on end, for which one reading is worth the search for them
 _DEEPEST = 64  # merged into what is merged into ...
 _ACTIVE, _MERGED = 0, 1
 
@@ -32,6 +33,7 @@ class _Stored:
         self.first = first
         self.before: _Stored | None = None  # arguments of tokens of which each but the first has one of these
         self._table: Array | None = None
+        self._may_be_open = True
 
     def is_followed(self, other: "_Stored") -> bool:
         """Whether the others are these without the first, and one more."""
@@ -42,7 +44,8 @@ class _Stored:
             last = self.store[self.first[-1] + number]
             return np.append(self.before._values(number)[1:], last)
         if self._table is None:
-            self._table = table_of(self.store, self.first, len(self.kinds))
+            self._table = table_of(self.store, self.first, range(len(self.kinds)))
+            self._may_be_open = has_nan(self._table)
         found: Array = self._table[number]
         return found
 
@@ -50,7 +53,8 @@ class _Stored:
         """An argument, by the number of its parameter; bad where there is none."""
         if not 0 <= number < len(self.kinds):
             return _no_column(len(self.first))
-        column = self.numbers.column(value_column(self._values(number), self.kinds[number]))
+        values = self._values(number)
+        column = self.numbers.column(value_column(values, self.kinds[number], self._may_be_open))
         if self.missing is not None:
             column.bad = self.missing if column.bad is None else self.missing | column.bad
         return column
@@ -133,6 +137,7 @@ class Tables:
         else:
             self._read(record.tokens)
         self.count = len(self.keys)
+        self.is_planned = self.is_active | self.is_merged
         self.has_cut = bool(self.is_cut.any())
         self.is_ordered = bool((self.keys[1:] > self.keys[:-1]).all())
         self._rows: Array | None = None  # by key, where there are not many more keys than tokens
@@ -169,6 +174,8 @@ class Tables:
 
     def _take(self, tokens: TokenColumns) -> None:
         """Take tokens that were recorded in columns; what is inactive has no times yet."""
+        for symbol in tokens.symbols:
+            self.texts.number(symbol)
         times, names = tokens.times, np.array([self.texts.number(name) for name in tokens.names], np.int64)
         self.keys, self.ticks, self.merged_into = times.keys, times.ticks, times.merged_into
         self.predicates, self.predicate = list(tokens.names), times.predicates
@@ -219,14 +226,28 @@ class RowTokens:
 
     __slots__ = ("_arguments", "_columns", "_part", "_rows", "_standing", "_whole", "tables")
 
-    def __init__(self, tables: Tables, rows: Array, whole: "RowTokens | None" = None) -> None:
+    def __init__(
+        self, tables: Tables, part: Array, whole: "RowTokens | None" = None, rows: Array | None = None
+    ) -> None:
         self.tables = tables
         self._whole = whole  # the tokens of which these are the part in some rows
-        self._part = rows
-        self._rows: Array | None = rows if whole is None else None
+        self._part = part
+        self._rows: Array | None = part if whole is None else rows
         self._standing: Array | None = None
         self._columns: dict[int, Column] = {}
         self._arguments: list[tuple[Mask, _Stored | _Picked]] | None = None
+
+    @staticmethod
+    def children(tables: Tables, rows: Array) -> "RowTokens":
+        """Children: as a rule one token stands for those of many rows on end, and is read once."""
+        standing = tables.standing.take(rows)
+        is_other = np.empty(len(rows), bool)
+        is_other[:1] = True
+        np.not_equal(standing[1:], standing[:-1], out=is_other[1:])
+        heads = np.flatnonzero(is_other)
+        if _LONG * len(heads) > len(rows):
+            return RowTokens(tables, rows)
+        return RowTokens(tables, np.cumsum(is_other) - 1, RowTokens(tables, standing.take(heads)), rows)
 
     @property
     def rows(self) -> Array:

@@ -24,8 +24,7 @@ def _sequences(judge: ProgramJudge, bench: Bench, timelines: set[str]) -> dict[s
         start, thing = tok.record.start, tok.record.object
         if not isinstance(start, int) or start > bench.last_tick:
             continue
-        ends = hull(tok.values[END])
-        if start < 0 and ends is not None and ends[1] <= 0:
+        if start < 0 and (ends := hull(tok.values[END])) is not None and ends[1] <= 0:
             continue  # what the script tells of the time before the mission
         if isinstance(thing, str) and bench.members.get(thing, ("",))[0] in judge.timelines:
             found.setdefault(thing, []).append(tok)
@@ -36,6 +35,8 @@ def _sequences(judge: ProgramJudge, bench: Bench, timelines: set[str]) -> dict[s
 
 def _not_replaced(tokens: list[Tok]) -> list[Tok]:
     """Without what a repair took away and was put back as another token, which a later repair may have taken, too."""
+    if not any(tok.is_cut for tok in tokens):
+        return tokens
     last: dict[Value, float] = {}  # by start: when the last of the tokens left the plan, infinite if none took it
     for tok in tokens:
         left = tok.record.tick if tok.is_cut else inf

@@ -238,7 +238,7 @@ class _Expansion:
     def groups(self) -> tuple[TokenGroup, ...]:
         """All tokens that have begun, by the block that began them."""
         roots = np.flatnonzero(np.asarray(self.walk.children)[: self.walk.count] >= 0)
-        blocks = self.rows[roots, 3] & (WISHED - 1)
+        blocks = self.rows[:, 3].take(roots) & (WISHED - 1)
         found: list[TokenGroup] = []
         for block in np.flatnonzero(np.bincount(blocks)).tolist():
             found += self._groups_of(block, roots[blocks == block])
@@ -246,18 +246,18 @@ class _Expansion:
 
     def _groups_of(self, block: int, roots: Array) -> Iterator[TokenGroup]:
         """The tokens of one block."""
-        first = np.asarray(self.walk.children)[roots]
-        runs = _BlockRuns(self, block, first, self.rows[roots, SHOWN])
+        first = np.asarray(self.walk.children).take(roots)
+        runs = _BlockRuns(self, block, first, self.rows[:, SHOWN].take(roots))
         started = np.asarray(self.walk.child_rows)
         for reading in self.program.readings(block):
-            rows = started[first + reading.number]
+            rows = started.take(first + reading.number)
             begun = np.flatnonzero(rows >= 0)
             if len(begun):
                 which = None if len(begun) == len(rows) else begun
                 yield TokenGroup(
                     reading.token.predicate.name,
                     self.program.model.lines[reading.token.line].name,
-                    self.indices[rows if which is None else rows[which]],
+                    self.indices.take(rows if which is None else rows.take(which)),
                     tuple(runs.run(body, which) for body in reading.bodies),
                 )
 

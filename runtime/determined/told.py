@@ -87,7 +87,7 @@ class Told:
         for line, predicate, indices, at in self._kinds():
             code = program.model.program.predicates[predicate]
             shapes = tuple([shape[:3] for shape in shapes_of(program, code)])
-            table = table_of(values, rows.take(at + VALUES), len(shapes))
+            table = table_of(values, rows.take(at + VALUES), range(len(shapes)))
             kinds.append(
                 StoredKind(
                     program.model.lines[line].name,

@@ -4,18 +4,16 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple, overload
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from runtime.executive.record import TokenRecord
 
 Array = NDArray[Any]
-_BLOCK = 1024
 ORIGINS = ("own", "rule", "request", "observation", "fact")  # by number
 
 
 class ValueColumn(NamedTuple):
-    """One value per row: float64 if they are reals or one was never fixed (NaN); else int64, names by number."""
+    """One value per row, as registers hold it: float64, names by number, NaN where it was never fixed."""
 
     kind: str  # int, float, bool or name
     numbers: Array
@@ -32,11 +30,9 @@ class ShownValues(NamedTuple):
 
     def part(self, begin: int, end: int) -> list[ValueColumn]:
         """The values of the rows from one on to before another."""
-        if not self.offsets:
-            return []
-        least = min(self.offsets)
-        table = table_of(self.store, self.first[begin:end] + least, max(self.offsets) - least + 1)
-        return [value_column(table[at - least], kind) for at, kind in zip(self.offsets, self.kinds, strict=True)]
+        table = table_of(self.store, self.first[begin:end], self.offsets)
+        may_be_open = has_nan(table)
+        return [value_column(each, kind, may_be_open) for each, kind in zip(table, self.kinds, strict=True)]
 
 
 class StoredValues(NamedTuple):
@@ -48,17 +44,17 @@ class StoredValues(NamedTuple):
 
     def columns(self) -> tuple[ValueColumn, ...]:
         """The values of all rows."""
-        table = table_of(self.store, self.first, len(self.kinds))
-        return tuple([value_column(numbers, kind) for numbers, kind in zip(table, self.kinds, strict=True)])
+        table = table_of(self.store, self.first, range(len(self.kinds)))
+        may_be_open = has_nan(table)
+        return tuple([value_column(each, kind, may_be_open) for each, kind in zip(table, self.kinds, strict=True)])
 
 
-def table_of(store: Array, first: Array, width: int) -> Array:
-    """A row for each of `width` numbers that stand side by side in a store, from each of `first` on."""
-    table = np.empty((width, len(first)))
-    if width and len(first):
-        view = sliding_window_view(store, width)
-        for k in range(0, len(first), _BLOCK):  # a part that the cache holds
-            table[:, k : k + _BLOCK] = view[first[k : k + _BLOCK]].T
+def table_of(store: Array, first: Array, offsets: Sequence[int]) -> Array:
+    """A row for each of the numbers that stand in a store some way behind each of `first`."""
+    table = np.empty((len(offsets), len(first)))
+    if len(first):
+        for row, offset in zip(table, offsets, strict=True):
+            store[offset:].take(first, out=row, mode="clip")  # numpy copies once more where it is to raise
     return table
 
 
@@ -189,10 +185,12 @@ class TokenColumns(Sequence[TokenRecord]):
         return hash(tuple(self))
 
 
-def value_column(numbers: Array, kind: str) -> ValueColumn:
+def has_nan(numbers: Array) -> bool:
+    """Whether something among the numbers was never fixed."""
+    return bool(np.isnan(np.add.reduce(numbers, axis=None))) and bool(np.isnan(numbers).any())
+
+
+def value_column(numbers: Array, kind: str, may_be_open: bool) -> ValueColumn:
     """The column of numbers as registers hold them."""
-    has_open = bool(np.isnan(numbers.sum())) and bool(np.isnan(numbers).any())
     name = kind if kind in ("int", "bool", "float") else "name"
-    if has_open or kind == "float":
-        return ValueColumn(name, numbers, has_open)
-    return ValueColumn(name, (numbers != 0.0 if kind == "bool" else numbers).astype(np.int64), False)
+    return ValueColumn(name, numbers, may_be_open and has_nan(numbers))

@@ -37,7 +37,13 @@ def value(column: ValueColumn, row: int, names: list[str]) -> Value:
     number = column.numbers[row].item()
     if number != number:
         return ValueRange(-inf, inf)
-    return names[number] if column.kind == "name" else bool(number) if column.kind == "bool" else number
+    match column.kind:
+        case "name":
+            return names[int(number)]
+        case "bool":
+            return bool(number)
+        case kind:
+            return int(number) if kind == "int" else number
 
 
 def run_of(run: RunColumns, row: int, names: list[str]) -> BodyRun:

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from checker.judge import bulk_tokens, judge
-from checker.judge.bulk_frame import closed
 from checker.judge.bulk_meanings import FUNCTIONS, HOLDS, TRUTHS, conforms, near, points, value_of
-from checker.judge.columns import Texts, column_of, constant, distinct, unknown
+from checker.judge.columns import Texts, column_of, constant, distinct
 from checker.judge.functions import COMPUTED
 from checker.judge.functions import conforms as conforms_one
 from checker.judge.judge import judge_mission
@@ -100,19 +99,35 @@ def test_what_plainly_holds_holds(name: str) -> None:
         columns = rows(dice, 12, 1 if name == "testNot" else 2)
         given = [column_of(each, texts) for each in columns]
         if name in HOLDS:
-            answers = HOLDS[name](*given).tolist()
+            answers = np.broadcast_to(HOLDS[name](*given), 12).tolist()  # one row stands for all
             wanted = [MEANINGS[name](*each) for each in zip(*columns, strict=True)]
             assert all(right is True for answer, right in zip(answers, wanted, strict=True) if answer)
             if not any(isinstance(each[0], str) for each in columns):
                 assert all(answer for answer, right in zip(answers, wanted, strict=True) if right is True), columns
             seen |= set(wanted)
             continue
-        holds, fails = TRUTHS[name](*given)
+        holds, fails = (np.broadcast_to(each, 12) for each in TRUTHS[name](*given))
         wanted = [TESTS[name](*each) for each in zip(*columns, strict=True)]
         assert all(wanted[k] is True for k in np.flatnonzero(holds)), columns
         assert all(wanted[k] is False for k in np.flatnonzero(fails)), columns
         seen |= set(wanted)
     assert {True, False} <= seen
+
+
+def test_times_are_compared_with_a_clock_that_was_never_fixed() -> None:
+    dice, texts = Random(8), Texts()
+    seen = set()
+    for _ in range(40):
+        times: list[Value] = [dice.randrange(8) for _ in range(12)]
+        clocks: list[Value] = [ValueRange(first, first + dice.randrange(1, 4)) for first in range(12)]
+        clocks[dice.randrange(12)] = 4
+        for given in ((times, clocks), (clocks, times)):
+            holds, fails = TRUTHS["testLeq"](*[column_of(each, texts) for each in given])
+            wanted = [TESTS["testLeq"](*each) for each in zip(*given, strict=True)]
+            assert holds.tolist() == [each is True for each in wanted]
+            assert fails.tolist() == [each is False for each in wanted]
+            seen |= set(wanted)
+    assert seen == {True, False, None}
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
@@ -173,8 +188,13 @@ def test_a_single_value_stands_for_all_rows() -> None:
     assert many.part(1, 3).values(texts, rows[:2]) == [7.0, 2.5]
     found = value_of("eqMaximum", [one, many])
     assert found is not None and found.lower.tolist() == [2.5, 7.0, 2.5]
-    closed_rows = closed([unknown(), many], 3)
-    assert closed_rows is not None and closed_rows.tolist() == [False, False, False]
+
+
+def test_sums_that_are_not_exact_on_the_way_are_left_to_the_judge_of_single_tokens() -> None:
+    small, large = ([column_of([each], Texts()) for each in given] for given in ((7, 1, -1), (2**53, 1, -1)))
+    found = value_of("eqSum", small)
+    assert found is not None and found.lower.tolist() == [7]
+    assert value_of("eqSum", large) is None
 
 
 def test_distinct_numbers_are_those_that_occur() -> None:
