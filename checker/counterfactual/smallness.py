@@ -5,7 +5,6 @@ kind, the more usual what it writes is (in models, and in this one), and the les
 """
 
 import math
-import re
 from collections import Counter
 from collections.abc import Container, Sequence
 from dataclasses import dataclass
@@ -13,19 +12,11 @@ from dataclasses import dataclass
 from checker.counterfactual.affinity import WORD, Affinity
 from checker.counterfactual.bounds import Directions, is_put_in_order, sets_value
 from checker.counterfactual.mentions import Mentions, is_doubled
+from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, sign_of, sort_of, sum_of
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit, inverse_of
 
-_SAMPLED = re.compile(r"sampledParameter\s*\(\s*(\w+)")
-_POINTS = re.compile(r"(\w+\.)?(start|end)\s*[<>=!]+\s*(\w+\.)?(start|end)\s*;")  # two ends of tokens
-_TARGET = re.compile(r"\(\s*[\w.]+")
-_EVENTS = ("consume", "produce")
-_BEFORE, _AFTER = re.compile(r"([\w.]+)\s*$"), re.compile(r"\s*([\w.]+)")
-_REAL = re.compile(r"\d\.\d|\d\.(?!\w)")
 _LOOSE = "any"  # the relation that demands nothing
-_SIGNS = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
 _UNEQUAL, _EQUAL = "!=", "=="
-_TRUTHS = ("true", "false")
-_TIMES = ("start", "end", "duration")
 _WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
 _NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 _MOST_FOLLOW_UPS = 3
@@ -49,24 +40,6 @@ _TWIN_SOON = 0.6  # and how much sooner that is tried
 _NAMED = 2.0  # odds of the comparison that a constant's name asks for
 _EDGE = 2.0  # odds that few missions fail for a number, not for what is wrong in all of them
 
-# How often a word is meant, in lines of a sort, before any line of the model is read.
-_RELATIONS = {
-    "child": {"contains": 4.0, "contained_by": 2.0, "meets": 1.5, "met_by": 1.5, "before": 0.7, "after": 0.7},
-    "neighbour": {"meets": 4.0, "met_by": 4.0, "before": 1.0, "after": 1.0, "contains": 0.05, "contained_by": 0.05},
-    "event": {"any": 6.0},
-    "between": {"before": 3.0, "meets": 1.5, "contains": 1.5, "contained_by": 1.0, "after": 0.7, "met_by": 0.7},
-}
-_COMPARISONS = {
-    "value": {"==": 6.0, "<=": 1.0, ">=": 1.0, "!=": 0.1},
-    "time": {"==": 3.0, "<=": 3.0, ">=": 1.5, "!=": 0.05},
-    "point": {"==": 6.0, "<=": 2.0, ">=": 1.0, "!=": 0.05},
-    "sampled": {"==": 9.0},
-    "real condition": {"==": 0.2, "<=": 1.5, ">=": 1.5, "<": 2.0, ">": 2.0, "!=": 0.05},
-    "truth condition": {"==": 6.0, "<=": 0.1, ">=": 0.1, "<": 0.1, ">": 0.1, "!=": 0.5},
-    "condition": {"==": 2.0, "<=": 2.0, ">=": 2.0, "<": 2.0, ">": 2.0, "!=": 1.5},
-}
-# The sign of what is added: between two times most write how much later one is.
-_SIGNED = {"time sum": {"+": 4.0, "-": 1.0}, "sum": {"+": 2.0, "-": 1.0}, "number": {}}
 _MENTION, _ALIKE, _DOUBLED = 2.0, 1.5, 0.7  # odds that what lacks a mention is meant, or the same name on both sides
 _WISHED = 5.5  # of another wish: it is the user's
 _RESULT = 2.2  # of a result that changes places: other numbers by far come of it, and any limit is kept or none
@@ -138,13 +111,15 @@ class Usage:
 
     def odds(self, edit: SmallEdit, site: EditSite) -> float:
         """Logarithm of how much likelier the old word of a relation or comparison is meant than the new one."""
-        sort, prior = _sort(edit, site)
-        old, new = _sign(edit.old), _sign(edit.new)
+        sort, prior = sort_of(edit, site)
+        old, new = sign_of(edit.old), sign_of(edit.new)
         before = prior.get(old, _RARE) + self.meant[sort, old] - 1  # but for this very line
         odds = math.log(before / (prior.get(new, _RARE) + self.meant[sort, new]))
         wanted = self.affinity.sign_of(edit, site) if edit.kind is EditKind.COMPARISON else ""
         if edit.kind is EditKind.SIGN:
-            odds += _SUM * math.log(max(self.sums[_sum(edit, site)], 1) / (1 + self.sums[_sum(edit, site, edit.new)]))
+            odds += _SUM * math.log(
+                max(self.sums[sum_of(edit, site)], 1) / (1 + self.sums[sum_of(edit, site, edit.new)])
+            )
         if sort == "between" and edit.new == inverse_of(edit.old):
             odds -= _TURNED
         odds += _NAMED * ((old[:1] == wanted[:1]) - (new[:1] == wanted[:1])) if wanted else 0.0
@@ -161,9 +136,9 @@ def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0, is_late: bool =
         counts.update(word for word in WORD.findall(site.text) if word != site.named)
         kinds.update({edit.kind for edit in site.edits})
         words = {edit.begin: edit for edit in site.edits if edit.kind in _WORDED}
-        meant.update((_sort(edit, site)[0], _sign(edit.old)) for edit in words.values())
-        sums.update(_sum(edit, site) for edit in words.values() if edit.kind is EditKind.SIGN)
-    sampled = {name for site in sites for name in _SAMPLED.findall(site.text)}
+        meant.update((sort_of(edit, site)[0], sign_of(edit.old)) for edit in words.values())
+        sums.update(sum_of(edit, site) for edit in words.values() if edit.kind is EditKind.SIGN)
+    sampled = {name for site in sites for name in SAMPLED.findall(site.text)}
     named = {site.named for site in sites if site.named}
     mentions = Mentions(sites, named, counts)
     directions = Directions(sites, named, is_late=is_late)
@@ -175,9 +150,9 @@ def is_loosening(edit: SmallEdit, site: EditSite) -> bool:
     is_comparison = edit.kind is EditKind.COMPARISON
     return (
         edit.kind in DROPPED
-        or (is_comparison and _sign(edit.old) == _EQUAL and _SAMPLED.search(site.text) is not None)
+        or (is_comparison and sign_of(edit.old) == _EQUAL and SAMPLED.search(site.text) is not None)
         or (edit.kind is EditKind.RELATION and edit.new == _LOOSE)
-        or (is_comparison and _sign(edit.new) == _UNEQUAL)
+        or (is_comparison and sign_of(edit.new) == _UNEQUAL)
     )
 
 
@@ -220,12 +195,12 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return _RESULT
         case EditKind.GOAL:
             return _WISHED
-        case EditKind.PREDICATE if edit.old in _EVENTS:
+        case EditKind.PREDICATE if edit.old in EVENTS:
             return 3.0 - _FLOW * (not usage.counts[edit.new])
         case EditKind.OPERATOR | EditKind.PREDICATE | EditKind.MISSION:
             return 3.0
         case EditKind.VALUE:
-            is_case = edit.old not in _TRUTHS and not site.text.endswith(";")
+            is_case = edit.old not in TRUTHS and not site.text.endswith(";")
             return _VALUE - (_CASE * usage.mentions.case_gain(edit, site) if is_case else 0.0)
         case EditKind.NAME | EditKind.POINT | EditKind.TOKEN:
             return 2.0 - usage.fitness(edit, site)
@@ -256,7 +231,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return _KIN_SOON - 0.1 * usage.gain(edit, site)
         case EditKind.LIMIT:
             return _KIN_SOON if usage.gain(edit, site) > 0.0 and not usage.strands(edit) else _LATE
-        case EditKind.SIGN if edit.new not in _SIGNED["sum"]:
+        case EditKind.SIGN if edit.new not in SIGNED["sum"]:
             return 0.0  # few write a number below zero
         case EditKind.SIGN:
             return 0.5 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
@@ -273,7 +248,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return 0.5 - 0.6 * fitness if fitness > 0.0 else neutral - fitness
         case EditKind.VALUE:
             return -0.4 + _LATER * usage.passing
-        case EditKind.PREDICATE if edit.old in _EVENTS:
+        case EditKind.PREDICATE if edit.old in EVENTS:
             return _SIDE
         case EditKind.POINT | EditKind.TOKEN | EditKind.PREDICATE:
             return 0.5 - 0.5 * usage.fitness(edit, site) + _LATER * usage.passing
@@ -285,7 +260,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             if edit.new == _LOOSE:
                 return 0.3
             return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
-        case EditKind.COMPARISON if _sign(edit.new) == _UNEQUAL:
+        case EditKind.COMPARISON if sign_of(edit.new) == _UNEQUAL:
             return _LATE
         case EditKind.COMPARISON:
             return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
@@ -350,54 +325,6 @@ def alternatives(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdi
         if other != edit and other.kind not in DROPPED
     ]
     return [other for cost, _, other in sorted(others)[:_MOST_FOLLOW_UPS] if cost <= most]
-
-
-def _sort(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
-    """The sort of line that a relation or comparison stands in, and how often words are meant in such lines."""
-    if edit.kind is EditKind.RELATION:
-        relation_sort = _relation_sort(edit, site)
-        return relation_sort, _RELATIONS[relation_sort]
-    if edit.kind is EditKind.SIGN:
-        signs = "number" if edit.new not in _SIGNED["sum"] else "time sum" if _is_about_time(site) else "sum"
-        return signs, _SIGNED[signs]
-    before = site.text[: edit.begin - site.begin]
-    is_demand = site.text.endswith(";") and before.count("(") == before.count(")")
-    is_point = _POINTS.fullmatch(site.text) is not None
-    if is_demand and _SAMPLED.search(site.text):
-        sort = "sampled"
-    elif is_demand:
-        sort = "point" if is_point else "time" if _is_about_time(site) else "value"
-    else:
-        is_truth = any(word in _TRUTHS for word in WORD.findall(site.text))
-        sort = "truth condition" if is_truth else "real condition" if _REAL.search(site.text) else "condition"
-    return sort, _COMPARISONS[sort]
-
-
-def _relation_sort(edit: SmallEdit, site: EditSite) -> str:
-    """What a relation is between: two named tokens, or the rule's own and one beside it, an event, or any other."""
-    if edit.begin > site.begin:
-        return "between"
-    target = _TARGET.search(site.text, edit.end - site.begin)
-    names = target.group().strip("( ").split(".") if target is not None else [""]
-    if names[-1] in _EVENTS:
-        return "event"
-    is_own = len(names) == 1 or names[:-1] in (["object"], [site.rule.rpartition(".")[0]])
-    return "neighbour" if is_own else "child"  # tokens of one timeline do not overlap
-
-
-def _sum(edit: SmallEdit, site: EditSite, sign: str = "") -> tuple[str, str, str]:
-    """A sign with the words that it stands between."""
-    left, right = _BEFORE.search(site.text[: edit.begin - site.begin]), _AFTER.match(site.text[edit.end - site.begin :])
-    return left.group(1) if left else "", sign or edit.old, right.group(1) if right else ""
-
-
-def _sign(word: str) -> str:
-    """A comparison as a sign, also where a function is its name."""
-    return _SIGNS.get(word, word)
-
-
-def _is_about_time(site: EditSite) -> bool:
-    return any(word in _TIMES for word in WORD.findall(site.text))
 
 
 def _octaves(edit: SmallEdit) -> float:

@@ -1,0 +1,83 @@
+"""Which words are meant how often in which sort of line: relations, comparisons and signs."""
+
+import re
+
+from checker.counterfactual.affinity import WORD
+from checker.mutation.edits import EditKind, EditSite, SmallEdit
+
+EVENTS = ("consume", "produce")
+TRUTHS = ("true", "false")
+SAMPLED = re.compile(r"sampledParameter\s*\(\s*(\w+)")
+_POINTS = re.compile(r"(\w+\.)?(start|end)\s*[<>=!]+\s*(\w+\.)?(start|end)\s*;")  # two ends of tokens
+_TARGET = re.compile(r"\(\s*[\w.]+")
+_BEFORE, _AFTER = re.compile(r"([\w.]+)\s*$"), re.compile(r"\s*([\w.]+)")
+_REAL = re.compile(r"\d\.\d|\d\.(?!\w)")
+_SIGNS = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
+_TIMES = ("start", "end", "duration")
+
+# How often a word is meant, in lines of a sort, before any line of the model is read.
+_RELATIONS = {
+    "child": {"contains": 4.0, "contained_by": 2.0, "meets": 1.5, "met_by": 1.5, "before": 0.7, "after": 0.7},
+    "neighbour": {"meets": 4.0, "met_by": 4.0, "before": 1.0, "after": 1.0, "contains": 0.05, "contained_by": 0.05},
+    "event": {"any": 6.0},
+    "between": {"before": 3.0, "meets": 1.5, "contains": 1.5, "contained_by": 1.0, "after": 0.7, "met_by": 0.7},
+}
+_COMPARISONS = {
+    "value": {"==": 6.0, "<=": 1.0, ">=": 1.0, "!=": 0.1},
+    "time": {"==": 3.0, "<=": 3.0, ">=": 1.5, "!=": 0.05},
+    "point": {"==": 6.0, "<=": 2.0, ">=": 1.0, "!=": 0.05},
+    "sampled": {"==": 9.0},
+    "real condition": {"==": 0.2, "<=": 1.5, ">=": 1.5, "<": 2.0, ">": 2.0, "!=": 0.05},
+    "truth condition": {"==": 6.0, "<=": 0.1, ">=": 0.1, "<": 0.1, ">": 0.1, "!=": 0.5},
+    "condition": {"==": 2.0, "<=": 2.0, ">=": 2.0, "<": 2.0, ">": 2.0, "!=": 1.5},
+}
+# The sign of what is added: between two times most write how much later one is.
+SIGNED = {"time sum": {"+": 4.0, "-": 1.0}, "sum": {"+": 2.0, "-": 1.0}, "number": {}}
+
+
+def sort_of(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
+    """The sort of line that a relation or comparison stands in, and how often words are meant in such lines."""
+    if edit.kind is EditKind.RELATION:
+        relation_sort = _relation_sort(edit, site)
+        return relation_sort, _RELATIONS[relation_sort]
+    if edit.kind is EditKind.SIGN:
+        signs = "number" if edit.new not in SIGNED["sum"] else "time sum" if _is_about_time(site) else "sum"
+        return signs, SIGNED[signs]
+    before = site.text[: edit.begin - site.begin]
+    is_demand = site.text.endswith(";") and before.count("(") == before.count(")")
+    is_point = _POINTS.fullmatch(site.text) is not None
+    if is_demand and SAMPLED.search(site.text):
+        sort = "sampled"
+    elif is_demand:
+        sort = "point" if is_point else "time" if _is_about_time(site) else "value"
+    else:
+        is_truth = any(word in TRUTHS for word in WORD.findall(site.text))
+        sort = "truth condition" if is_truth else "real condition" if _REAL.search(site.text) else "condition"
+    return sort, _COMPARISONS[sort]
+
+
+def _relation_sort(edit: SmallEdit, site: EditSite) -> str:
+    """What a relation is between: two named tokens, or the rule's own and one beside it, an event, or any other."""
+    if edit.begin > site.begin:
+        return "between"
+    target = _TARGET.search(site.text, edit.end - site.begin)
+    names = target.group().strip("( ").split(".") if target is not None else [""]
+    if names[-1] in EVENTS:
+        return "event"
+    is_own = len(names) == 1 or names[:-1] in (["object"], [site.rule.rpartition(".")[0]])
+    return "neighbour" if is_own else "child"  # tokens of one timeline do not overlap
+
+
+def sum_of(edit: SmallEdit, site: EditSite, sign: str = "") -> tuple[str, str, str]:
+    """A sign with the words that it stands between."""
+    left, right = _BEFORE.search(site.text[: edit.begin - site.begin]), _AFTER.match(site.text[edit.end - site.begin :])
+    return left.group(1) if left else "", sign or edit.old, right.group(1) if right else ""
+
+
+def sign_of(word: str) -> str:
+    """A comparison as a sign, also where a function is its name."""
+    return _SIGNS.get(word, word)
+
+
+def _is_about_time(site: EditSite) -> bool:
+    return any(word in _TIMES for word in WORD.findall(site.text))
