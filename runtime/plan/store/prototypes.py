@@ -1,5 +1,6 @@
 """Prototypes: variables that others copy, one per type and restriction, per constant, per class."""
 
+from collections.abc import Iterable
 from math import inf
 
 from compiler.program import DomainConstant, Program, TypeCode
@@ -65,6 +66,15 @@ class Prototypes:
             chain.append(number)
             number = self.base[number]
         return chain
+
+    def with_ancestors(self, numbers: Iterable[int]) -> set[int]:
+        """These classes and all that they are derived from."""
+        found: set[int] = set()
+        for number in numbers:
+            while number >= 0 and number not in found:
+                found.add(number)
+                number = self.base[number]
+        return found
 
     def value(self, value: float | int | bool | str, kind: str) -> float:
         """A value as the engine keeps it."""
