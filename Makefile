@@ -15,7 +15,8 @@
 #   make kills        KILLS (20) batches killed by SIGKILL and as many by SIGTERM, resumed, beside undisturbed ones
 #   make mutants      MUTANTS (2000) faulty missions, flown compiled, interpreted and by the general engine, and judged
 #   make renames      rename every name of every model, and compare what the models mean
-#   make editor-proof 100,000 edit scripts and as many hostile messages; every model by the server and by `nddlc lint`
+#   make editor-proof EXAMPLES (100000) scripts of keystrokes beside a cold start, as many edits and hostile messages;
+#                     every model by the server and by `nddlc lint`
 #   make vsix         the extension for Visual Studio Code (npm fetches its tools; what it makes loads nothing)
 #   make conformance  the conformance suite of NDDL
 #   make corpus       the public models, where CORPUS=directory holds checkouts of nasa/europa and fredpy/trex2-agent
@@ -142,6 +143,7 @@ renames: build
 	NDDLC_RENAMES=all $(PYTEST) tests/lsp/test_rename_everything.py
 
 editor-proof: build
+	$(BIN)/python -m tests.lsp.keystroke_proof $(EXAMPLES)
 	NDDLC_EDITOR=all $(PYTEST) tests/lsp/test_scheduling.py tests/lsp/test_one_engine.py
 
 vsix:

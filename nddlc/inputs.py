@@ -175,11 +175,14 @@ def _alike(path: Path) -> str | None:
         if candidate != path and candidate.is_file():
             return f"there is `{candidate}`"
     try:
-        beside = {each.stem: each for each in sorted(path.parent.iterdir()) if each.suffix in (".nddl", ".toml")}
+        beside = [each for each in sorted(path.parent.iterdir()) if each.suffix in (".nddl", ".toml")]
     except OSError:
         return f"there is no directory `{path.parent}`"
-    meant = nearest(path.stem, beside)
-    return None if meant is None else f"did you mean `{beside[meant]}`?"
+    whole, stems = {each.name: each for each in beside}, {each.stem: each for each in beside}
+    for name, known in ((path.stem, stems), (path.name, whole)):
+        if (meant := nearest(name, known)) is not None:
+            return f"did you mean `{known[meant]}`?"
+    return None
 
 
 def mission_here(given: str | None) -> str:

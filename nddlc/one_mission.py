@@ -44,7 +44,7 @@ def values_of(given: tuple[str, ...], models: ModelSet) -> dict[str, float]:
     known = [parameter.name for parameter in models.agent.parameters]
     values: dict[str, float] = {}
     for one in given:
-        name, sign, text = one.partition("=")
+        name, _, text = one.partition("=")
         if name not in known:
             meant = nearest(name, known)
             advice = f"did you mean `{meant}`?" if meant is not None else f"there are: {', '.join(known) or 'none'}"
@@ -52,5 +52,6 @@ def values_of(given: tuple[str, ...], models: ModelSet) -> dict[str, float]:
         try:
             values[name] = float(text)
         except ValueError:
-            raise Unusable(f"`{one}` gives `{name}` no number", "write NAME=VALUE" if not sign else None) from None
+            problem = f"`{name}` takes a number, not `{text}`" if text else f"`{one}` gives no value"
+            raise Unusable(problem, f"write `{name}=` and a number") from None
     return values

@@ -35,7 +35,7 @@ def format_text(text: str, dialect: Dialect = Dialect.NDDLC, name: str = "text")
 def format_parse(parsed: Parse) -> Formatted:
     """The text of `parsed` in the style; as it is where another layout would make more, or less, of its mistakes."""
     written = _written(parsed)
-    if any(_leaves_doubt(diagnostic) for diagnostic in parsed.diagnostics):
+    if written != parsed.source.text and any(_leaves_doubt(diagnostic) for diagnostic in parsed.diagnostics):
         again = parse(Source(parsed.source.name, written), parsed.dialect)
         if not same_tree(parsed.module, again.module) or _written(again) != written:
             written = parsed.source.text

@@ -72,6 +72,7 @@ OBJECT_IN_PREDICATE = Code("NDDL576", Severity.WARNING, "lint", "EUROPA stops wh
 OTHER_METHOD = Code("NDDL577", Severity.WARNING, "lint", "EUROPA does something else for `{name}`")
 UNUSED_SUPPRESSION = Code("NDDL590", Severity.WARNING, "lint", "there is nothing{what} to ignore here")
 NO_SUCH_CODE = Code("NDDL591", Severity.WARNING, "lint", "`{text}` is no code of a finding")
+UNUSABLE_MODULE = Code("NDDL594", Severity.ERROR, "name", "the project's Python cannot be used: {reason}")
 NOT_TOML = Code("NDDL595", Severity.ERROR, "syntax", "this is not TOML: {reason}")
 UNKNOWN_KEY = Code("NDDL596", Severity.ERROR, "name", "there is no setting `{key}`")
 WRONG_VALUE = Code("NDDL597", Severity.ERROR, "type", "`{key}` must be {wanted}")

@@ -1,7 +1,7 @@
 """The temporal side of a rule body: distances between the times of its tokens, and whether they can hold together.
 
 A cycle of distances whose sum is negative has no solution, and only such a cycle has none (Dechter, Meiri, Pearl).
-It is looked for with Bellman and Ford's algorithm, in a graph that is as small as one rule.
+It is looked for with Bellman and Ford's algorithm; every second round goes backwards (Yen), so that chains take two.
 """
 
 from collections.abc import Sequence
@@ -31,27 +31,32 @@ def negative_cycle(edges: Sequence[Edge]) -> list[Edge]:
     before: dict[Node, Edge] = {}
     for edge in edges:
         distance[edge.earlier] = distance[edge.later] = 0.0
-    last: Node | None = None
-    for _ in range(len(distance)):
-        last = None
-        for edge in edges:
+    for number in range(len(distance) + 1):
+        is_changed = False
+        for edge in edges if number % 2 == 0 else reversed(edges):
             through = distance[edge.earlier] + edge.weight
             if through < distance[edge.later] - 1e-9:
                 distance[edge.later] = through
                 before[edge.later] = edge
-                last = edge.later
-        if last is None:
+                is_changed = True
+        if not is_changed:
             return []
-    if last is None:
-        return []
-    node = last
-    for _ in range(len(distance)):  # from any node that still moves, this many steps back lead into the cycle
-        node = before[node].earlier
-    cycle: list[Edge] = []
-    at = node
-    while True:
-        edge = before[at]
-        cycle.append(edge)
-        at = edge.earlier
-        if at == node:
+        if cycle := _cycle_of(before):
+            return cycle
+    return []
+
+
+def _cycle_of(before: dict[Node, Edge]) -> list[Edge]:
+    """A cycle among the edges by which nodes were reached last; its sum is negative."""
+    done: dict[Node, Node] = {}  # by node, where the walk began that met it
+    for begin in before:
+        at = begin
+        while at in before and at not in done:
+            done[at] = begin
+            at = before[at].earlier
+        if done.get(at) == begin and at in before:
+            cycle = [before[at]]
+            while cycle[-1].earlier != at:
+                cycle.append(before[cycle[-1].earlier])
             return cycle[::-1]
+    return []

@@ -1,6 +1,6 @@
 """The pages of the codes about the settings of a project."""
 
-from nddl_lang.lint.codes import NOT_TOML, NOT_TRUSTED, UNKNOWN_KEY, UNREAD_MODULE, WRONG_VALUE
+from nddl_lang.lint.codes import NOT_TOML, NOT_TRUSTED, UNKNOWN_KEY, UNREAD_MODULE, UNUSABLE_MODULE, WRONG_VALUE
 from nddl_lang.text.page import RulePage
 
 SETTINGS_PAGES = (
@@ -39,6 +39,16 @@ TRUST_PAGES = (
         "`nddlc lint --trust` runs the module.",
         "CONSTRAINTS = [make(name) for name in NAMES]\n",
         "CONSTRAINTS = [Near(), Far()]\n",
+        "python",
+    ),
+    RulePage(
+        UNUSABLE_MODULE,
+        "A Python module with constraints raises an exception, does not come back, or ends the process when it is run.",
+        "An editor that trusts the workspace shows this where the configuration names the module; on the command line "
+        "it is a message, and the command ends with 2. What can be read from the module's text counts meanwhile. A "
+        "module is tried by a process of its own first, so whatever it does, the editor's server goes on.",
+        "DEPTHS = sum(range(10**12))\n",
+        "DEPTHS = 10**12 * (10**12 - 1) // 2\n",
         "python",
     ),
     RulePage(

@@ -1,5 +1,6 @@
 """Find temporal demands that cannot hold together: in a rule, branch by branch, of several rules, and in the script."""
 
+from bisect import bisect_left
 from collections.abc import Iterator
 
 from nddl_lang.lint.codes import CONTRADICTION, NO_DURATION, TOO_LONG
@@ -27,24 +28,28 @@ def lint_times_together(whole: Whole) -> Iterator[Diagnostic]:
         if isinstance(part.node, RuleDecl):
             rules.setdefault((part.node.class_name.name, part.node.predicate.name), []).append(part)
     for (class_name, name), parts in rules.items():
-        above = [
-            rule for ancestor in whole.analysis.schema.ancestry(class_name) for rule in rules.get((ancestor, name), ())
+        inherited = [
+            rule
+            for ancestor in whole.analysis.schema.ancestry(class_name)
+            if ancestor != class_name
+            for rule in rules.get((ancestor, name), ())
         ]
-        inherited = [rule for rule in above if rule not in parts]
-        for number, part in enumerate(parts):
-            if others := [*inherited, *parts[:number]]:
-                yield from _beside_others(part, others)
+        if len(inherited) + len(parts) > 1:
+            yield from _beside_others(parts, inherited)
     yield from _in_script(whole)
 
 
-def _beside_others(part: Part, others: list[Part]) -> Iterator[Diagnostic]:
-    """What a rule demands beside those rules that fire before it: of ancestors, and above it of its own class."""
-    mine = _plain_edges(part)
-    if not mine or negative_cycle(mine):
-        return
-    theirs = [edge for other in others for edge in _plain_edges(other)]
-    if theirs and not negative_cycle(theirs) and (cycle := negative_cycle([*theirs, *mine])):
-        yield _contradiction(part, cycle)
+def _beside_others(parts: list[Part], inherited: list[Part]) -> Iterator[Diagnostic]:
+    """The first rule that contradicts those that fire before it: of ancestors, and above it of its own class."""
+    before = [edge for part in inherited for edge in _plain_edges(part)]
+    own = [_plain_edges(part) for part in parts]
+
+    def cycle_with(count: int) -> list[Edge]:
+        return negative_cycle([*before, *(edge for edges in own[:count] for edge in edges)])
+
+    first = bisect_left(range(len(parts) + 1), True, key=lambda count: cycle_with(count) != [])
+    if 0 < first <= len(parts) and not negative_cycle(own[first - 1]):
+        yield _contradiction(parts[first - 1], cycle_with(first))
 
 
 def _plain_edges(part: Part) -> list[Edge]:

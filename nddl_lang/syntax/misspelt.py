@@ -1,5 +1,7 @@
 """Find the word of the language that a name was meant to be, where the statement makes sense with it."""
 
+from functools import lru_cache
+
 from nddl_lang.syntax.expectation import accepts
 from nddl_lang.syntax.words import ELSEWHERE, FORMER, KINDS, RELATIONS
 from nddl_lang.text.nearest import nearest
@@ -7,6 +9,7 @@ from nddl_lang.text.nearest import nearest
 _WORDS = tuple(word for word in KINDS if word not in FORMER)
 # A name as short as these is no misspelt word unless it has the same letters.
 _SHORT = 3
+_REMEMBERED = 256  # answers: one mistake may stand in thousands of lines
 
 
 def meant_word(
@@ -21,10 +24,10 @@ def meant_word(
         if at < first or kinds[at] != "IDENT":
             continue
         before, after = kinds[first:at], kinds[at + 1 : max(at, index) + 2]
-        fitting = {kind for kind in {*KINDS.values()} if accepts(states, [*before, kind, *after])}
+        fitting = _fitting(tuple(states), tuple(before), tuple(after))
         if not fitting:
             continue
-        word = _meant(texts[at], [word for word in _WORDS if KINDS[word] in fitting])
+        word = _meant(texts[at], fitting)
         if word is not None:
             return at, word
         # `overlaps(object.p q)`: only relations and goals take a path and a name.
@@ -33,8 +36,16 @@ def meant_word(
     return None
 
 
-def _meant(name: str, words: list[str]) -> str | None:
-    """The one of `words` that `name` stands for."""
+@lru_cache(_REMEMBERED)
+def _fitting(states: tuple[int, ...], before: tuple[str, ...], after: tuple[str, ...]) -> frozenset[str]:
+    """The kinds of words that the parser takes between these kinds of lexemes."""
+    return frozenset(kind for kind in {*KINDS.values()} if accepts([*states], [*before, kind, *after]))
+
+
+@lru_cache(_REMEMBERED)
+def _meant(name: str, fitting: frozenset[str]) -> str | None:
+    """The word of these kinds that `name` stands for."""
+    words = [word for word in _WORDS if KINDS[word] in fitting]
     if ELSEWHERE.get(name) in words:
         return ELSEWHERE[name]
     begun = [word for word in words if word.startswith(f"{name}_")]

@@ -42,6 +42,7 @@ _STATEMENT_WORDS = frozenset(
 )
 _PUNCTUATION = frozenset("=,:.)]+-*/<>!") | {"==", "!=", "<=", ">=", "&&", "||", "::"}
 _TURNED = {("-", ">"): ".", (":", "="): "=", ("=", ">"): ">=", ("=", "<"): "<=", ("<", ">"): "!=", ("=", "!"): "!="}
+_PARTED = {("<", "="): "<=", (">", "="): ">="}  # by blanks
 _VALUE_ENDS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", ")", "]", "}"))
 _LISTS = frozenset(("(", "SET"))
 _LITERALS = frozenset(("INT", "FLOAT", "STRING", "BOOL"))
@@ -171,13 +172,16 @@ class Recovery:
         return False
 
     def _turn_comparison(self, first: int, index: int) -> bool:
-        """Read `=>`, `=<`, `<>`, `=!`, `:=` and `->` as the signs that they were meant to be."""
+        """Read `=>`, `=<`, `<>`, `=!`, `:=`, `->` and `< =` as the signs that they were meant to be."""
         b, kinds = self._b, self._kinds
-        sign = _TURNED.get((kinds[index - 1], kinds[index])) if index > first else None
-        if sign is None or b.ends[index - 1] != b.starts[index]:
+        pair = kinds[index - 1], kinds[index]
+        if index <= first or (pair not in _TURNED and pair not in _PARTED):
             return False
-        written = f"{kinds[index - 1]}{kinds[index]}"
         span = b.span(index - 1, index)
+        written = span.text
+        sign = _TURNED.get(pair) if b.ends[index - 1] == b.starts[index] else _PARTED.get(pair)
+        if sign is None or "".join(written.split(" ")) != "".join(pair):
+            return False
         if not self._is_quiet:
             fix = Fix(f"write `{sign}`", (Edit(span, sign),))
             b.report(SUPERFLUOUS, span, text=written, help=f"write `{sign}`", fixes=(fix,))

@@ -25,6 +25,8 @@ def _width(letter: str) -> int:
 
 def _shown(line: str) -> tuple[str, list[int]]:
     """`line` as it can be printed, and the column at which each character, and the end, stands."""
+    if line.isascii() and line.isprintable():
+        return line, list(range(len(line) + 1))
     letters: list[str] = []
     columns: list[int] = []
     column = 0

@@ -115,6 +115,7 @@ def load_predicates(plan: Plan, program: Program, prototypes: Prototypes, code: 
     first_rule: list[int] = []
     parameters: list[int] = []
     copies: list[tuple[int, int]] = []
+    timelines = prototypes.with_ancestors(c for c, each in enumerate(program.classes) if each.native == "Timeline")
     for predicate in program.predicates:
         number = numbers[predicate.class_name]
         native = program.classes[number].native
@@ -122,7 +123,7 @@ def load_predicates(plan: Plan, program: Program, prototypes: Prototypes, code: 
         flag = FLAG_ACTION if predicate.is_action else 0
         flag |= FLAG_EVENT if predicate.is_event else 0
         flags.append(flag | (FLAG_NATIVE if is_resource else 0))
-        timeline.append(int(any(program.classes[c].native == "Timeline" for c in prototypes.heirs(number))))
+        timeline.append(int(number in timelines))
         kind = RESOURCE_HOLDS
         if predicate.is_event:
             kind = RESOURCE_PRODUCES if predicate.name.endswith(".produce") else RESOURCE_CONSUMES

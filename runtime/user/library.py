@@ -78,11 +78,16 @@ def library_of(settings: Settings) -> Library:
     return _library(tuple(each.path for each in settings.modules), settings.seconds or USUAL)
 
 
+def seen_from_here(file: Path) -> Path:
+    """A file as somebody in the working directory names it."""
+    here = Path.cwd()
+    return file.relative_to(here) if file.is_relative_to(here) else file
+
+
 @cache
 def _library(modules: tuple[Path, ...], seconds: float) -> Library:
-    here = Path.cwd()
-    names = [module.relative_to(here) if module.is_relative_to(here) else module for module in modules]
-    return load_library(Path(), [name.as_posix() for name in names], seconds=seconds)
+    names = [seen_from_here(module).as_posix() for module in modules]
+    return load_library(Path(), names, seconds=seconds)
 
 
 def load_module(path: Path) -> ModuleType:

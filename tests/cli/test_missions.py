@@ -42,7 +42,25 @@ def test_a_mission_that_fails_under_a_given_value(capsys: pytest.CaptureFixture[
 
 def test_values_of_unknown_parameters_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert flown(capsys, "run", str(REPAIR / "mission.toml"), "--param", "E=25")[0] == 2
-    assert flown(capsys, "run", str(REPAIR / "mission.toml"), "--param", "D=x")[0] == 2
+    for given, said in (
+        ("D=x", "`D` takes a number, not `x`"),
+        ("D", "`D` gives no value"),
+        ("D=", "`D=` gives no value"),
+    ):
+        assert run(["run", str(REPAIR / "mission.toml"), "--param", given]) == 2
+        told = capsys.readouterr().err
+        assert told == f"nddlc: {said}\n  help: write `D=` and a number\n"
+
+
+def test_a_file_that_ends_otherwise_may_be_meant(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("mission.toml", "planner.nddl"):
+        Path(name).write_text("", encoding="ascii")
+    for name, meant in (("mission.tml", "mission.toml"), ("planer.toml", "planner.nddl")):
+        assert run(["check", name]) == 2
+        assert capsys.readouterr().err == f"nddlc: no file `{name}`\n  help: did you mean `{meant}`?\n"
 
 
 def test_a_mission_may_be_stopped_before_its_end(mission: Path, capsys: pytest.CaptureFixture[str]) -> None:

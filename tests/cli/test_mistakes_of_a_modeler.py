@@ -95,6 +95,7 @@ MISTAKES = (
 
 # Others, in which what was found to be told badly is told well.
 MORE_MISTAKES = (
+    Mistake("gps/rules.nddl", "duration <= GO_WORST;", "duration < = GO_WORST;", "`<=`"),
     Mistake("gps/rules.nddl", "fix.minHits == FIX_HITS;\n}", "fix.minhits == FIX_HITS;\n}", "`minHits`"),
     Mistake("gps/rules.nddl", "Nav::Surface {", "nav::Surface {", "`Nav`"),
     Mistake("gps/rules.nddl", "up before fix;", "ascend before fix;", "up"),

@@ -40,8 +40,13 @@ MODELS: dict[str, str | bytes] = {
     "an open string": 'string s = "' + "x\n" * 5000,
     "an open comment": "/*" + "* /" * 10**5,
     "members on one line": "class A { " + " ".join(f"int m{i};" for i in range(10**4)) + " }\n",
-    "predicates": "class A extends Timeline {\n" + "".join(f"predicate p{i} {{ }}\n" for i in range(3000)) + "}\n",
-    "classes": "".join(f"class C{i} extends Timeline {{ predicate p {{ }} }}\n" for i in range(2000)),
+    "predicates": "class A extends Timeline {\n" + "".join(f"predicate p{i} {{ }}\n" for i in range(10**4)) + "}\n",
+    "classes": "".join(f"class C{i} extends Timeline {{ predicate p {{ }} }}\n" for i in range(5000)),
+    "rules of a predicate": TIMELINE + "A::p { n > 0; }\n" * 3000,
+    "times of a chain": TIMELINE
+    + OBJECT
+    + "".join(f"goal(a.p g{i});\n" for i in range(1000))
+    + "".join(f"g{i + 1}.start < g{i}.start;\n" for i in range(999)),
     "ancestors": ancestors(300),
     "ancestors in a cycle": "class A extends C { }\nclass B extends A { }\nclass C extends B { }\nA a = new A();\n",
     "types in a cycle": "typedef a b;\ntypedef b a;\na x;\n",

@@ -20,7 +20,7 @@ RULES = ROOT / "docs" / "rules"
 FIXTURES = Path(__file__).parent / "fixtures"
 PATHS = sorted(FIXTURES.rglob("*.nddl"))
 # Of settings, which are no text of a model: `test_configuration` and `test_trust` show them.
-OF_SETTINGS = {"NDDL595", "NDDL596", "NDDL597", "NDDL598", "NDDL599"}
+OF_SETTINGS = {"NDDL594", "NDDL595", "NDDL596", "NDDL597", "NDDL598", "NDDL599"}
 # It needs a second file: `test_an_include_beside_the_file` shows it.
 OF_FILES = {"NDDL573"}
 

@@ -3,6 +3,7 @@
 from array import array
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from itertools import accumulate
 
 from compiler.program import Child, Guard, Instruction, ObjectLoop, Program
 
@@ -26,7 +27,7 @@ class Supports:
             for name, count in Counter(code.effects).items():
                 way = [(index[code.name], number) for number in range(count)]
                 ways[index[name]] += way * count if europa else way
-        self.first = array("q", [sum(map(len, ways[:number])) for number in range(len(ways) + 1)])
+        self.first = array("q", accumulate(map(len, ways), initial=0))
         self.action = array("q", [action for rows in ways for action, _ in rows])
         self.effect = array("q", [effect for rows in ways for _, effect in rows])
         self.reach = _reachable(program, index, ways)
@@ -47,22 +48,45 @@ class Supports:
 
 def _reachable(program: Program, index: dict[str, int], ways: list[list[tuple[int, int]]]) -> list[int]:
     """For each predicate the set, as bits, of all that its rules, and actions that support it, may ask for."""
-    reach = [1 << number for number in range(len(program.predicates))]
+    asked: list[list[int]] = [[] for _ in program.predicates]
     bases = {code.name: code.base for code in program.classes}
     for number, code in enumerate(program.predicates):
         for rule in code.rules:
             for name in _children(program.rules[rule].body, code.class_name, index):
-                reach[number] |= 1 << index[name]
-        for action, _ in ways[number]:
-            reach[number] |= 1 << action
+                asked[number].append(index[name])
+        asked[number] += [action for action, _ in ways[number]]
         base, suffix = bases[code.class_name], code.name.rpartition(".")[2]
         if (inherited := index.get(f"{base}.{suffix}")) is not None:
-            reach[number] |= 1 << inherited  # a token of the subclass's predicate is one of the base's, too
-    for middle in range(len(reach)):
-        for number in range(len(reach)):
-            if (reach[number] >> middle) & 1:
-                reach[number] |= reach[middle]
+            asked[number].append(inherited)  # a token of the subclass's predicate is one of the base's, too
+    order = _bottom_up(asked)
+    reach = [1 << number for number in range(len(asked))]
+    is_growing = True
+    while is_growing:  # twice, and once more for each cycle within a cycle
+        is_growing = False
+        for number in order:
+            grown = reach[number]
+            for other in asked[number]:
+                grown |= reach[other]
+            is_growing = is_growing or grown != reach[number]
+            reach[number] = grown
     return reach
+
+
+def _bottom_up(asked: list[list[int]]) -> list[int]:
+    """All predicates, each after those that it asks for, but for cycles (depth first, postorder)."""
+    order: list[int] = []
+    is_met = [False] * len(asked)
+    for root in range(len(asked)):
+        pending = [(root, False)]
+        while pending:
+            number, is_left = pending.pop()
+            if is_left:
+                order.append(number)
+            elif not is_met[number]:
+                is_met[number] = True
+                pending.append((number, True))
+                pending += [(other, False) for other in asked[number]]
+    return order
 
 
 def _children(
