@@ -40,6 +40,10 @@ class Prototypes:
         self.texts = Names()
         self.class_numbers = {code.name: number for number, code in enumerate(program.classes)}
         self.base = [NONE if code.base is None else self.class_numbers.get(code.base, NONE) for code in program.classes]
+        self.heirs_of: list[list[int]] = [[] for _ in program.classes]  # the classes that extend each directly
+        for number, base in enumerate(self.base):
+            if base != NONE:
+                self.heirs_of[base].append(number)
         self.made: dict[tuple[TypeCode, DomainConstant | None], int] = {}
         self.class_of: dict[int, int] = {}  # prototype of an object variable -> class
         self.openings: list[list[int]] = [[] for _ in program.classes]  # open variables of each class
@@ -66,6 +70,13 @@ class Prototypes:
             chain.append(number)
             number = self.base[number]
         return chain
+
+    def heirs(self, number: int) -> list[int]:
+        """A class and all that extend it, directly or not."""
+        found = [number]
+        for heir in found:
+            found += self.heirs_of[heir]
+        return found
 
     def with_ancestors(self, numbers: Iterable[int]) -> set[int]:
         """These classes and all that they are derived from."""
