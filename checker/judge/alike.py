@@ -13,7 +13,7 @@ from runtime.executive.columns import GuardColumns, RunColumns, TokenColumns, Va
 from runtime.executive.record import BodyRun, GuardRun, TokenRecord
 
 _KINDS = {"float": FLOAT, "int": INT, "bool": INT, "name": TEXT}
-_BLOCK = 16384  # rows
+_BLOCK = 8192  # rows
 _Shape = tuple["_RunShape", ...]  # of all runs of a token
 _RunShape = tuple[int, int, int, int]  # rule, how many locals, children and guards
 
