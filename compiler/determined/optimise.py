@@ -4,6 +4,7 @@ Each pass takes placed instructions and returns others. A block that stops has d
 as they see the same values; only what is read outside the block has to be in its register when the block ends.
 """
 
+from collections import Counter
 from collections.abc import Collection
 from dataclasses import dataclass
 
@@ -140,12 +141,18 @@ class _Apart:
         return False
 
 
+def _times_read(placed: list[Placed]) -> Counter[int]:
+    """How often each register is read, by instructions and for the branches that they stand in."""
+    return Counter(
+        register
+        for context, instruction in placed
+        for register in (*_reads(instruction), *[each for each, _ in context])
+    )
+
+
 def _in_place(placed: list[Placed], known: BlockFacts) -> list[Placed]:
     """Compute where the value is wanted, instead of aside."""
-    count: dict[int, int] = {}
-    for context, instruction in placed:
-        for register in (*_reads(instruction), *[each for each, _ in context]):
-            count[register] = count.get(register, 0) + 1
+    count = _times_read(placed)
     done: list[Placed] = []
     for context, instruction in placed:
         if instruction[0] == code.COPY and done:
@@ -156,7 +163,7 @@ def _in_place(placed: list[Placed], known: BlockFacts) -> list[Placed]:
                 and made[0] in _ONE_RESULT - {code.COPY, code.UNIFY}
                 and made[1] == aside
                 and aside in known.passing
-                and count.get(aside) == 1
+                and count[aside] == 1
                 and out not in _reads(made)
             ):
                 done[-1] = (context, (made[0], out, *made[2:]))
@@ -167,10 +174,7 @@ def _in_place(placed: list[Placed], known: BlockFacts) -> list[Placed]:
 
 def _multiplied(placed: list[Placed], known: BlockFacts) -> list[Placed]:
     """A product that is only added to something becomes one operation with the sum; each is rounded by itself."""
-    count: dict[int, int] = {}
-    for context, instruction in placed:
-        for register in (*_reads(instruction), *[each for each, _ in context]):
-            count[register] = count.get(register, 0) + 1
+    count = _times_read(placed)
     done: list[Placed] = []
     for context, instruction in placed:
         if instruction[0] == code.ADD and done:
