@@ -23,7 +23,8 @@ from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_source
 from nddl_lang.text.source import Source, Span
-from nddl_lang.text.toml_places import find_places, split_error
+from nddl_lang.text.toml_places import find_places
+from nddl_lang.text.toml_slips import not_toml
 from nddl_lang.text.values import toml_value
 from runtime.executive.configuration import (
     AgentConfiguration,
@@ -82,7 +83,7 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
     try:
         values = toml_value(source.text)
     except tomllib.TOMLDecodeError as problem:
-        return None, (_not_toml(source, str(problem)),)
+        return None, (not_toml(NOT_TOML, source, str(problem)),)
     return _mission_of(MissionText(source, find_places(source.text)), values, root)
 
 
@@ -141,11 +142,6 @@ def _with_batch(
     if batch.seed is not None and not top.table("check", "[check]").has("seed"):
         check = replace(check, seed=batch.seed)
     return replace(agent, parameters=(*agent.parameters, *added)), check
-
-
-def _not_toml(source: Source, problem: str) -> Diagnostic:
-    reason, offset = split_error(source, problem)
-    return NOT_TOML.at(MissionText(source, {}).span(offset, offset + 1), reason=reason)
 
 
 def _read_check(table: Table) -> CheckConfiguration:

@@ -10,8 +10,8 @@ from checker.mission import LARGEST_SEED, MOST_MISSIONS
 from checker.mission_table import MissionText, Table
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.read import read_source
-from nddl_lang.text.source import Source
-from nddl_lang.text.toml_places import find_places, split_error
+from nddl_lang.text.toml_places import find_places
+from nddl_lang.text.toml_slips import not_toml
 from nddl_lang.text.values import toml_value
 
 _DISTRIBUTIONS = ("uniform", "normal")
@@ -65,7 +65,7 @@ def read_study(path: Path) -> tuple[StudyFile | None, tuple[Diagnostic, ...]]:
     try:
         values = toml_value(source.text)
     except tomllib.TOMLDecodeError as problem:
-        return None, (_not_toml(source, str(problem)),)
+        return None, (not_toml(NOT_TOML, source, str(problem)),)
     text = MissionText(source, find_places(source.text))
     top = Table(text, (), values, "a study file")
     head = top.table("study", "[study]", needed=True)
@@ -86,11 +86,6 @@ def read_study(path: Path) -> tuple[StudyFile | None, tuple[Diagnostic, ...]]:
     top.close()
     found = tuple(sorted(text.diagnostics, key=lambda one: one.span.begin))
     return (None if found else study), found
-
-
-def _not_toml(source: Source, problem: str) -> Diagnostic:
-    reason, offset = split_error(source, problem)
-    return NOT_TOML.at(MissionText(source, {}).span(offset, offset + 1), reason=reason)
 
 
 def _chosen(table: Table, key: str, known: tuple[str, ...]) -> tuple[str, ...]:

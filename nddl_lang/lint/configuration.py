@@ -17,6 +17,7 @@ from nddl_lang.text.read import NotAFileError, read_text, real_path
 from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import Path as Key
 from nddl_lang.text.toml_places import find_places
+from nddl_lang.text.toml_slips import not_toml
 from nddl_lang.text.values import toml_value
 
 NAME = "nddlc.toml"
@@ -66,8 +67,7 @@ def read_configuration(path: Path, text: str | None = None) -> tuple[Settings, l
     try:
         table = toml_value(source.text)
     except tomllib.TOMLDecodeError as problem:
-        reason = str(problem)
-        return Settings(), [NOT_TOML.at(Span(Anchor(source), 0, 0), reason=reason[:1].lower() + reason[1:])]
+        return Settings(), [not_toml(NOT_TOML, source, str(problem))]
     prefix: Key = ()
     reader = _Reader(source, path.parent)
     if path.name == PROJECT:

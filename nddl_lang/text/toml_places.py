@@ -1,9 +1,6 @@
 """Say where in a TOML text each key and each value stands, which `tomllib` does not."""
 
-import re
 from dataclasses import dataclass
-
-from nddl_lang.text.source import Source
 
 Path = tuple[str | int, ...]
 
@@ -26,16 +23,6 @@ def find_places(text: str) -> dict[Path, Stretch]:
     scan = _Scan(toml_of(text))
     scan.document()
     return scan.places
-
-
-def split_error(source: Source, message: str) -> tuple[str, int]:
-    """What `tomllib` says is wrong with a text, and the offset that it says it of."""
-    place = re.search(r" \(at (?:line (\d+), column (\d+)|end of document)\)", message)
-    offset = len(source.text)
-    if place and place[1]:
-        offset = source.line_starts[min(int(place[1]), len(source.line_starts)) - 1] + int(place[2]) - 1
-    reason = message[: place.start()] if place else message
-    return reason[:1].lower() + reason[1:], offset
 
 
 class _Scan:

@@ -194,7 +194,7 @@ def test_a_mistake_in_what_depends_is_named_where_it_stands(text: str, line: int
             '[[reactor]]\nname = "x"\nmodel = "psim.nddl"\ninternal = ["a", "gps"]\n',
             (18, '"gps"', "NDDL709", "an owner of the timeline `gps` is there twice", None),
         ),
-        ("a = 3\nb = = 2\n", (16, "=", "NDDL701", "this is not TOML: invalid value", None)),
+        ("a = 3\nb = = 2\n", (16, "=", "NDDL701", "this is not TOML: invalid value", "a value is given with one `=`")),
     ],
 )
 def test_a_mistake_is_named_where_it_stands(text: str, expected: tuple[int, str, str, str, str | None]) -> None:

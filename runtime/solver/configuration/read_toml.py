@@ -5,7 +5,8 @@ from collections.abc import Iterator
 
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source, Span
-from nddl_lang.text.toml_places import Path, find_places, split_error
+from nddl_lang.text.toml_places import Path, find_places
+from nddl_lang.text.toml_slips import not_toml
 from nddl_lang.text.values import toml_value
 from runtime.solver.configuration.codes import NOT_READABLE, UNKNOWN_ELEMENT
 from runtime.solver.configuration.element import Attribute, Element, stretch
@@ -18,8 +19,7 @@ def read_toml(source: Source) -> tuple[Element | None, list[Diagnostic]]:
     try:
         table = toml_value(source.text)
     except tomllib.TOMLDecodeError as error:
-        reason, at = split_error(source, str(error))
-        return None, [NOT_READABLE.at(stretch(source, at, at + 1), reason=reason)]
+        return None, [not_toml(NOT_READABLE, source, str(error))]
     return _Converter(source).convert(table)
 
 
