@@ -10,6 +10,7 @@ from nddl_lang.semantics.functions import FUNCTIONS
 from nddl_lang.semantics.names import suggest_name
 from nddl_lang.semantics.scope import Context, Scope
 from nddl_lang.semantics.signature import ArgumentKind
+from nddl_lang.syntax.advice import advise_operator
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import CallConstraint, ExprConstraint
 from nddl_lang.text.diagnostic import Edit, Fix
@@ -43,6 +44,7 @@ def check_call_constraint(context: Context, scope: Scope, node: CallConstraint) 
 
 
 # What comparisons are called elsewhere that no constraint states with the same arguments; without `_`.
+_DEMANDS = ("assert", "assume", "check", "ensure", "expect", "must", "require")
 _COMPARISONS = {
     **dict.fromkeys(("geq", "ge", "gte", "greaterthanequal", "greaterorequal", "greaterthaneq"), ">="),
     **dict.fromkeys(("gt", "greaterthan", "greater"), ">"),
@@ -69,6 +71,14 @@ def _complain_unknown(context: Context, node: CallConstraint) -> None:
         meant = f"{left} {sign} {right};"
         fix = Fix(f"write `{meant}`", (Edit(node.span, meant),), safe=False)
         context.complain(UNKNOWN_CONSTRAINT.at(node.name.span, fixes=(fix,), name=name))
+        return
+    if plain in _DEMANDS and len(node.arguments) == 1:
+        meant = f"{node.arguments[0].span.text};"
+        fix = Fix(f"write `{meant}`", (Edit(node.span, meant),))
+        context.complain(replace(complaint, help="each line of a rule is a demand already", fixes=(fix,)))
+        return
+    if (advice := advise_operator(name)) is not None:
+        context.complain(replace(complaint, help=advice))
         return
     if name in FORMER_CONSTRAINTS:
         complaint = UNKNOWN_CONSTRAINT.at(

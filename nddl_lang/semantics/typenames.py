@@ -1,6 +1,7 @@
 """Tie the names of types and classes to what they name."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from nddl_lang.semantics.codes import UNDEFINED_CLASS, UNKNOWN_CLASS, UNKNOWN_TYPE
 from nddl_lang.semantics.names import suggest_name
@@ -23,6 +24,13 @@ _ELSEWHERE = {
     "real": "float",
     "text": "string",
     "unsigned": "int",
+}
+# What other languages write before a name, or a value.
+_NO_TYPES = {
+    **dict.fromkeys(
+        ("auto", "def", "let", "val", "var"), "say which: `bool`, `int`, `float`, `string`, an enum or a class"
+    ),
+    "return": "a rule gives nothing back: it states what holds",
 }
 
 
@@ -91,5 +99,8 @@ def _complain_missing(
         note = Note(f"`{word}` is declared here; statements run in order", below)
         same = [each for each in candidates if each.casefold() == word.casefold() and each != word]
         context.complain(suggest_name(code.at(name.span, notes=(note,), name=word), name, same, meant))
+        return
+    if word in _NO_TYPES:
+        context.complain(replace(complaint, help=_NO_TYPES[word]))
         return
     context.complain(suggest_name(complaint, name, candidates, meant))

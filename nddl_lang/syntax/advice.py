@@ -18,6 +18,7 @@ _OPERATORS = {
     "elif": "write `else { if (...) { } }`",
     "is": "write `==`",
 }
+_LOOPS = ("for", "repeat", "until", "while")
 
 
 def describe_found(b: Builder, kinds: list[str], index: int) -> str:
@@ -71,6 +72,8 @@ def advise(kinds: list[str], texts: list[str], first: int, index: int) -> str | 
 def _advise_after_name(kinds: list[str], texts: list[str], first: int, index: int) -> str | None:
     """What to write where the statement begins with a name, which may be meant to be anything."""
     kind, before, name = kinds[index], kinds[first:index], texts[first]
+    if name in _LOOPS:
+        return "a rule states what holds, and has no loop but `foreach (x in set) { }`"
     if index == first + 1 and nearest(name, ["else"]):
         return "did you mean `else`?"
     if index == first + 1 and kind == "STRING":

@@ -95,6 +95,11 @@ MISTAKES = (
 
 # Others, in which what was found to be told badly is told well.
 MORE_MISTAKES = (
+    # Words of other languages.
+    Mistake("gps/rules.nddl", "duration <= GO_WORST;", "assert(duration <= GO_WORST);", "`duration <= GO_WORST;`"),
+    Mistake("gps/rules.nddl", "duration <= GO_WORST;", "not(duration > GO_WORST);", "turn the comparison round"),
+    Mistake("gps/rules.nddl", "duration <= GO_WORST;", "while (duration < 5) { duration <= GO_WORST; }", "`foreach"),
+    Mistake("templates/survey/planner.nddl", "int LEG_MAX;", "var LEG_MAX;", "say which: `bool`, `int`"),
     Mistake("gps/rules.nddl", "duration <= GO_WORST;", "duration < = GO_WORST;", "`<=`"),
     Mistake("gps/rules.nddl", "fix.minHits == FIX_HITS;\n}", "fix.minhits == FIX_HITS;\n}", "`minHits`"),
     Mistake("gps/rules.nddl", "Nav::Surface {", "nav::Surface {", "`Nav`"),
