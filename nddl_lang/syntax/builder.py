@@ -37,6 +37,8 @@ from nddl_lang.syntax.piece import Piece
 from nddl_lang.text.diagnostic import Code, Edit, Fix
 from nddl_lang.text.source import Span
 
+_LIBRARIES = ("math", "np", "numpy", "std")
+
 
 class Builder:
     """The piece whose nodes are made, and values that may stand in few places only and wait for one of those."""
@@ -327,8 +329,12 @@ def refuse_waiting(b: Builder, span: Span | None = None) -> bool:
             help_text = "declare a variable for the object first, and write the variable here"
             b.report(MISPLACED_NEW, value.span, help=help_text)
         elif isinstance(value, CallExpr) and value in b.methods:
-            name = value.function.name
-            b.report(MISPLACED_METHOD, value.span, name=name, help="call it in a statement of its own")
+            name, owner = value.function.name, b.methods[value][0].span
+            if owner.text.casefold() in _LIBRARIES:
+                fix = Fix(f"write `{name}(...)`", (Edit(Span(b.anchor, owner.start, value.function.span.start), ""),))
+                b.report(MISPLACED_METHOD, value.span, name=name, help="functions have no owner", fixes=(fix,))
+            else:
+                b.report(MISPLACED_METHOD, value.span, name=name, help="call it in a statement of its own")
         elif isinstance(value, CallExpr):
             _report_no_argument(b, value)
     return bool(found)

@@ -151,12 +151,14 @@ def _misplaced(b: Builder, statement: Any, block: BlockGrammar) -> BrokenStateme
     help_text = _HOMES.get(type(statement))
     fixes: tuple[Fix, ...] = ()
     if isinstance(statement, Assignment) and block is RULE:
-        help_text = "a rule states constraints: write `==`"
+        is_negated = statement.value.span.text.startswith("!")  # `x =! y`
+        sign = "!=" if is_negated else "=="
+        help_text = f"a rule states constraints: write `{sign}`"
         between = Span(b.anchor, statement.target.span.end, statement.value.span.start)
         if statement.op == "=":
-            sign = between.text.index("=")
-            at = between.start + sign
-            fixes = (Fix("write `==`", (Edit(Span(b.anchor, at, at + 1), "=="),)),)
+            at = between.start + between.text.index("=")
+            end = between.end + 1 if is_negated else at + 1
+            fixes = (Fix(f"write `{sign}`", (Edit(Span(b.anchor, at, end), sign),)),)
     elif isinstance(statement, CallConstraint | ExprConstraint) and block is CLASS:
         help_text = "put it into a predicate or a rule; a constructor needs a body: `{ }`"
     elif isinstance(statement, CallConstraint) and block is CONSTRUCTOR and nearest(statement.name.name, ["super"]):

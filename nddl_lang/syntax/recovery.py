@@ -42,7 +42,7 @@ _STATEMENT_WORDS = frozenset(
 )
 _PUNCTUATION = frozenset("=,:.)]+-*/<>!") | {"==", "!=", "<=", ">=", "&&", "||", "::"}
 _TURNED = {("-", ">"): ".", (":", "="): "=", ("=", ">"): ">=", ("=", "<"): "<=", ("<", ">"): "!=", ("=", "!"): "!="}
-_PARTED = {("<", "="): "<=", (">", "="): ">="}  # by blanks
+_PARTED = {("<", "="): "<=", (">", "="): ">=", ("!", "="): "!="}  # by blanks
 _VALUE_ENDS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", ")", "]", "}"))
 _LISTS = frozenset(("(", "SET"))
 _LITERALS = frozenset(("INT", "FLOAT", "STRING", "BOOL"))
@@ -172,8 +172,10 @@ class Recovery:
         return False
 
     def _turn_comparison(self, first: int, index: int) -> bool:
-        """Read `=>`, `=<`, `<>`, `=!`, `:=`, `->` and `< =` as the signs that they were meant to be."""
+        """Read `=>`, `=<`, `<>`, `=!`, `:=`, `->`, `< =` and `! =` as the signs that they were meant to be."""
         b, kinds = self._b, self._kinds
+        if kinds[index : index + 2] == ["!", "="]:
+            index += 1
         pair = kinds[index - 1], kinds[index]
         if index <= first or (pair not in _TURNED and pair not in _PARTED):
             return False

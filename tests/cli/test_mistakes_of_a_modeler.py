@@ -96,6 +96,9 @@ MISTAKES = (
 # Others, in which what was found to be told badly is told well.
 MORE_MISTAKES = (
     # Words of other languages.
+    Mistake("gps/rules.nddl", "duration <= GO_WORST;", "duration ! = GO_WORST;", "`!=`"),
+    Mistake("gps/rules.nddl", "duration <= GO_WORST;", "duration =! GO_WORST;", "`!=`"),
+    Mistake("gps/rules.nddl", "duration <= GO_WORST;", "duration <= Math.ceil(GO_WORST);", "`ceil(...)`"),
     Mistake("gps/rules.nddl", "duration <= GO_WORST;", "assert(duration <= GO_WORST);", "`duration <= GO_WORST;`"),
     Mistake("gps/rules.nddl", "duration <= GO_WORST;", "not(duration > GO_WORST);", "turn the comparison round"),
     Mistake("gps/rules.nddl", "duration <= GO_WORST;", "while (duration < 5) { duration <= GO_WORST; }", "`foreach"),
