@@ -49,12 +49,13 @@ def test_the_mended_model_holds(workshop: Path) -> None:
     assert run(["check", str(GPS / "mended.toml"), "--missions", MISSIONS]) == 0
 
 
+@pytest.mark.once
 def test_equal_runs_give_equal_bytes(workshop: Path) -> None:
     reports: set[bytes] = set()
     for workers, hash_seed, form in (("1", "0", "0"), ("2", "1", "0"), ("2", "2", "1")):
         output = f"report-{workers}-{hash_seed}-{form}"
         command = [sys.executable, "-m", "nddlc.main", "check", str(GPS / "mission.toml"), "--no-store"]
-        command += ["--missions", MISSIONS, "--workers", workers, "--output", output]
+        command += ["--missions", MISSIONS, "--flights", "8", "--workers", workers, "--output", output]
         environment = {**os.environ, "PYTHONHASHSEED": hash_seed, "NDDLC_INTERPRETED": form}
         done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
         assert done.returncode == 1, done.stderr

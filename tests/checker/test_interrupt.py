@@ -25,13 +25,13 @@ ROOT = Path(__file__).resolve().parents[2]
 GPS = str(ROOT / "models/gps/mission.toml")
 pytestmark = [pytest.mark.once, pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")]
 PIPE = subprocess.PIPE
-KILLS = int(os.environ.get("NDDLC_KILLS", "5"))  # of each kind; `make kills` has more
+KILLS = int(os.environ.get("NDDLC_KILLS", "3"))  # of each kind; `make kills` has more
 LAG = 1.5  # seconds that a machine with much else to do may add
 
 
 def begin(folder: Path, load: str, *arguments: str) -> "subprocess.Popen[str]":
     """Start a batch in its own process group."""
-    command = [sys.executable, "-m", "tests.checker.fake_batch", load, GPS, *arguments]
+    command = [sys.executable, "-m", "tests.checker.fake_batch", load, GPS, "--flights", "2", *arguments]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     return subprocess.Popen(
         command, cwd=folder, text=True, start_new_session=True, stdout=PIPE, stderr=PIPE, env=environment

@@ -31,6 +31,7 @@ def of_text(text: str, folder: Path) -> tuple[list[Diagnostic], list[Witness]]:
     return proved(path)
 
 
+@pytest.mark.once
 def test_nothing_that_has_a_plan_is_called_impossible() -> None:
     checked = 0
     for path in (*MODELS, *CASES):

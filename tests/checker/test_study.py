@@ -60,6 +60,7 @@ def rates_above(limit: float, count: int, *, is_normal: bool) -> int:
     return sum(0.1 + 3.9 * share > limit for share in shares)
 
 
+@pytest.mark.once
 def test_a_study_counts_what_the_draws_decide(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code = run(["study", "gps/study.toml", "--workers", "2", "--format", "json"])
     data = json.loads(capsys.readouterr().out)
@@ -86,6 +87,7 @@ def test_a_study_counts_what_the_draws_decide(folder: Path, capsys: pytest.Captu
     assert "found by" in page
 
 
+@pytest.mark.once
 def test_more_missions_are_added_to_what_was_flown(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ["study", "gps/study.toml", "--variant", "base", "--workers", "1"]
     run([*arguments, "--missions", "3"])
