@@ -5,7 +5,7 @@ as they see the same values; only what is read outside the block has to be in it
 """
 
 from collections import Counter
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 
 from compiler.determined import code
@@ -90,12 +90,7 @@ def _written_once(placed: list[Placed], known: BlockFacts) -> list[Placed]:
     """Write what certainly has no value yet, instead of comparing."""
     apart = _Apart(placed, known.layout)
     begun: set[int] = {token.line for token in known.tokens if token.how == ROOT}
-    unknown = {
-        known.banks[number] + k: token.line
-        for number, token in enumerate(known.tokens)
-        if token.how in (ROOT, TOGETHER)
-        for k in range(len(token.predicate.parameters))
-    }
+    unknown = {register: token.line for register, token in _begun(known).items()}
     done: list[Placed] = []
     writers: dict[int, list[Context]] = {}
     for context, instruction in placed:
@@ -150,52 +145,55 @@ def _times_read(placed: list[Placed]) -> Counter[int]:
     )
 
 
+def _joined(placed: list[Placed], join: Callable[[Instruction, Instruction], Instruction | None]) -> list[Placed]:
+    """Each two that follow each other in one branch become what `join` makes of them, if it makes one."""
+    done: list[Placed] = []
+    for context, instruction in placed:
+        before, made = done[-1] if done else ((), instruction)
+        both = join(made, instruction) if done and before == context else None
+        if both is None:
+            done.append((context, instruction))
+        else:
+            done[-1] = (context, both)
+    return done
+
+
 def _in_place(placed: list[Placed], known: BlockFacts) -> list[Placed]:
     """Compute where the value is wanted, instead of aside."""
     count = _times_read(placed)
-    done: list[Placed] = []
-    for context, instruction in placed:
-        if instruction[0] == code.COPY and done:
-            before, made = done[-1]
-            _, out, aside = instruction[:3]
-            if (
-                before == context
-                and made[0] in _ONE_RESULT - {code.COPY, code.UNIFY}
-                and made[1] == aside
-                and aside in known.passing
-                and count[aside] == 1
-                and out not in _reads(made)
-            ):
-                done[-1] = (context, (made[0], out, *made[2:]))
-                continue
-        done.append((context, instruction))
-    return done
+
+    def join(made: Instruction, copy: Instruction) -> Instruction | None:
+        if copy[0] != code.COPY or made[0] not in _ONE_RESULT - {code.COPY, code.UNIFY}:
+            return None
+        _, out, aside = copy[:3]
+        is_aside = made[1] == aside and aside in known.passing and count[aside] == 1
+        return (made[0], out, *made[2:]) if is_aside and out not in _reads(made) else None
+
+    return _joined(placed, join)
 
 
 def _multiplied(placed: list[Placed], known: BlockFacts) -> list[Placed]:
     """A product that is only added to something becomes one operation with the sum; each is rounded by itself."""
     count = _times_read(placed)
-    done: list[Placed] = []
-    for context, instruction in placed:
-        if instruction[0] == code.ADD and done:
-            before, made = done[-1]
-            a, b = instruction[2:4]
-            if before == context and made[0] == code.MUL and a != b and made[1] in (a, b):
-                product, other = (a, b) if made[1] == a else (b, a)
-                if product in known.passing and count[product] == 1:
-                    done[-1] = (context, (code.MUL_ADD, instruction[1], made[2], made[3], other))
-                    continue
-        done.append((context, instruction))
-    return done
+
+    def join(made: Instruction, added: Instruction) -> Instruction | None:
+        if made[0] != code.MUL or added[0] != code.ADD:
+            return None
+        _, out, a, b = added[:4]
+        if a == b or made[1] not in (a, b) or made[1] not in known.passing or count[made[1]] != 1:
+            return None
+        return (code.MUL_ADD, out, made[2], made[3], b if made[1] == a else a)
+
+    return _joined(placed, join)
 
 
 # ---- what must be known ----
 
 
-def _begun(known: BlockFacts) -> dict[int, Context]:
-    """The parameters of all tokens that begin, with the context in which they do."""
+def _begun(known: BlockFacts) -> dict[int, BlockToken]:
+    """The parameters of all tokens that begin, with their tokens."""
     return {
-        known.banks[number] + k: token.context
+        known.banks[number] + k: token
         for number, token in enumerate(known.tokens)
         if token.how in (ROOT, TOGETHER)
         for k in range(len(token.predicate.parameters))
@@ -212,8 +210,8 @@ def _has_all(placed: list[Placed], known: BlockFacts) -> bool:
             for register in _writes(instruction):
                 told.setdefault(register, []).append(context)
     return all(
-        register in known.given or any(set(one) <= set(context) for one in told.get(register, ()))
-        for register, context in _begun(known).items()
+        register in known.given or any(set(one) <= set(token.context) for one in told.get(register, ()))
+        for register, token in _begun(known).items()
     )
 
 
@@ -224,13 +222,13 @@ def _logged(placed: list[Placed], known: BlockFacts) -> list[Placed]:
     for k, (_, instruction) in enumerate(placed):
         for register in _writes(instruction):
             writers.setdefault(register, []).append(k)
-    goes_to: dict[int, list[Context]] = {register: [context] for register, context in begun.items()}
+    goes_to: dict[int, list[Context]] = {register: [token.context] for register, token in begun.items()}
     for context, instruction in placed:
         if instruction[0] != code.COPY:
             continue
         out, source = instruction[1:3]
         if out in begun and len(writers[out]) == 1 and source not in writers:
-            goes_to.setdefault(source, []).append((*begun[out], *context))
+            goes_to.setdefault(source, []).append((*begun[out].context, *context))
     done: list[Placed] = []
     for k, (context, instruction) in enumerate(placed):
         if instruction[0] == code.NEED and max(writers.get(instruction[1], [k])) <= k:
