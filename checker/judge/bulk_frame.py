@@ -121,8 +121,7 @@ class RowFrame:
 
     def use(self, column: Column) -> Column:
         """The same; rows that were never fixed are left, too."""
-        if column.bad is not None:
-            self.tally.need(~column.bad)
+        self.fit(column)
         if column.upper is not None:
             self.tally.need(column.lower == column.upper)
         return column

@@ -51,7 +51,7 @@ def _equal(a: Column, b: Column) -> tuple[Mask, Mask]:
 
 def _at_most(a: Column, b: Column) -> tuple[Mask, Mask]:
     """Of whole numbers also where they were never fixed, as AGENT_CLOCK is."""
-    if not _are_numbers(a, b):
+    if not are_numbers(a, b):
         return np.zeros(1, bool), np.zeros(1, bool)
     most_of_a, most_of_b = (each.lower if each.upper is None else each.upper for each in (a, b))
     holds = np.asarray(most_of_a <= b.lower)
@@ -60,18 +60,18 @@ def _at_most(a: Column, b: Column) -> tuple[Mask, Mask]:
 
 
 def _is_at_most(a: Column, b: Column) -> Mask:
-    return np.asarray(a.lower <= b.lower) if _are_numbers(a, b) else np.zeros(1, bool)
+    return np.asarray(a.lower <= b.lower) if are_numbers(a, b) else np.zeros(1, bool)
 
 
 def _below(a: Column, b: Column) -> tuple[Mask, Mask]:
     holds = _is_less(a, b)
-    if not _are_numbers(a, b):
+    if not are_numbers(a, b):
         return holds, holds
     return holds, ~holds & (np.asarray(a.lower == b.lower) | ~near(a, b))
 
 
 def _is_less(a: Column, b: Column) -> Mask:
-    return np.asarray(a.lower < b.lower) if _are_numbers(a, b) else np.zeros(1, bool)
+    return np.asarray(a.lower < b.lower) if are_numbers(a, b) else np.zeros(1, bool)
 
 
 def _is_below(a: Column, b: Column) -> tuple[Mask, Mask]:
@@ -79,7 +79,8 @@ def _is_below(a: Column, b: Column) -> tuple[Mask, Mask]:
     return holds & ~near(a, b), fails
 
 
-def _are_numbers(*columns: Column) -> bool:
+def are_numbers(*columns: Column) -> bool:
+    """Whether no column holds texts."""
     for each in columns:  # noqa: SIM110 - called for each constraint: a generator would cost more than the rest
         if each.kind == TEXT:
             return False
@@ -201,7 +202,7 @@ _HUGE = 2.0**53
 def value_of(name: str, inputs: Sequence[Column]) -> Column | None:
     """The value of a function in each row, bad where it has none; None where it is not known here."""
     known = FUNCTIONS.get(name)
-    if known is None or not _are_numbers(*inputs):
+    if known is None or not are_numbers(*inputs):
         return None
     function, kind = known
     if not kind:
@@ -227,7 +228,7 @@ def _within_limits(kind: str, found: Array) -> Column:
 
 def difference_of(later: Column, earlier: Column) -> Column | None:
     """`later - earlier` of numbers."""
-    if not _are_numbers(later, earlier):
+    if not are_numbers(later, earlier):
         return None
     kind = INT if later.kind == INT and earlier.kind == INT else FLOAT
     return _within_limits(kind, later.lower - earlier.lower)
@@ -269,7 +270,7 @@ HOLDS: dict[str, Holds] = {
 
 def points(*columns: Column) -> Mask:
     """Where (ux, uy) plainly is the unit vector from (x, y) to (tx, ty), as `meanings` has it."""
-    if not _are_numbers(*columns):
+    if not are_numbers(*columns):
         return np.zeros(1, bool)
     ux, uy, x, y, tx, ty = (each.lower for each in columns)
     east, north = tx - x, ty - y

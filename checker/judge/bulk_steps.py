@@ -7,7 +7,17 @@ import numpy as np
 from checker.judge.alike import GuardRows
 from checker.judge.bodies import StepMaker, Written, compile_body
 from checker.judge.bulk_frame import RowFrame, RowRead, RowStep, UnplainError, row_reader
-from checker.judge.bulk_meanings import HOLDS, TRUTHS, conforms, difference_of, near, points, truth, value_of
+from checker.judge.bulk_meanings import (
+    HOLDS,
+    TRUTHS,
+    are_numbers,
+    conforms,
+    difference_of,
+    near,
+    points,
+    truth,
+    value_of,
+)
 from checker.judge.bulk_relating import row_child, row_relate
 from checker.judge.columns import FLOAT, INT, TEXT, Column, Mask, column_of, distinct, unknown
 from checker.judge.functions import COMPUTED
@@ -164,9 +174,8 @@ def _check_loose(post: Post, meaning: Meaning, names: VariableNames) -> RowStep:
 
 def _need_numbers(columns: Sequence[Column]) -> None:
     """Leave a function of texts to others: only a child that is another token than the rule asks for has them."""
-    for each in columns:
-        if each.kind == TEXT:
-            raise UnplainError
+    if not are_numbers(*columns):
+        raise UnplainError
 
 
 def _one_by_one(meaning: Meaning, columns: Sequence[Column], frame: RowFrame) -> Mask:
