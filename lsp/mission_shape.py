@@ -7,9 +7,10 @@ from itertools import pairwise
 
 from lsprotocol.types import DocumentLink, DocumentSymbol, FoldingRange, FoldingRangeKind, SymbolKind
 
-from lsp.mission_texts import FILE_KEYS, HEADER, KEY, STRING, OpenMission
+from lsp.mission_texts import FILE_KEYS, KEY, STRING, OpenMission
 from lsp.positions import Lines
 from lsp.uris import uri_of
+from nddl_lang.text.toml_places import HEADER
 
 _COMMENT = re.compile(r"#.*")
 _NAMING = ("name", "timeline", "predicate", "model")  # of these keys an entry of the outline is made

@@ -14,11 +14,11 @@ from lsp.uris import path_of
 from nddl_lang.lint.configuration import NAME, PROJECT
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source
+from nddl_lang.text.toml_places import HEADER
 
 # All that is wrong with a text of that name in that folder; whether the workspace is trusted.
 Examine = Callable[[Source, Path, bool], Iterable[Diagnostic]]
 _SUFFIX = ".toml"
-HEADER = re.compile(r"^[ \t]*\[(\[)?[ \t]*([^\]\n]*?)[ \t]*\]", re.MULTILINE)
 _BEGUN = re.compile(r"[ \t]*\[\[?(?=[^\]\n]*\Z)")  # a header that is not closed yet
 KEY = re.compile(r"""^[ \t]*([A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')[ \t]*=""", re.MULTILINE)
 _MODEL = re.compile(r"""^[ \t]*model[ \t]*=[ \t]*["']([^"'\n]+)["']""", re.MULTILINE)

@@ -1,7 +1,10 @@
 """Say where in a TOML text each key and each value stands, which `tomllib` does not."""
 
+import re
 from dataclasses import dataclass
 
+# A table's header, in a text that need not be well-formed: whether it is one of several, and its name.
+HEADER = re.compile(r"^[ \t]*\[(\[)?[ \t]*([^\]\n]*?)[ \t]*\]", re.MULTILINE)
 Path = tuple[str | int, ...]
 
 

@@ -5,9 +5,9 @@ from collections.abc import Callable
 
 from nddl_lang.text.diagnostic import Code, Diagnostic, Edit, Fix
 from nddl_lang.text.source import Anchor, Source, Span
+from nddl_lang.text.toml_places import HEADER
 
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
-_HEADER = re.compile(r"^[ \t]*\[(\[)?[ \t]*([^\[\]\n]+?)[ \t]*\]", re.MULTILINE)
 _WORD = re.compile(r"[A-Za-z_/][^\s,;#\]}\"']*")
 _TRUTHS = {"true": "true", "yes": "true", "on": "true", "false": "false", "no": "false", "off": "false"}
 _OPEN_TEXT = "the quotes of a text close in its line"
@@ -48,7 +48,7 @@ def _span(source: Source, begin: int, finish: int) -> Span:
 
 def _single_header(source: Source, at: int) -> tuple[Span, str] | None:
     """A header `[name]` where another is `[[name]]`, for the name of the last header before `at`."""
-    headers = list(_HEADER.finditer(source.text, 0, at + 2))
+    headers = list(HEADER.finditer(source.text, 0, at + 2))
     name = headers[-1][2] if headers else ""
     alike = [each for each in headers if each[2] == name]
     single = [each for each in alike if each[1] is None]
@@ -85,14 +85,14 @@ def _value(source: Source, at: int) -> _Advice | None:
 
 
 def _end(source: Source, at: int) -> _Advice | None:
-    before, following = source.text[:at], source.text[at : at + 1]
+    before, following = source.text[at - 1 : at], source.text[at : at + 1]
     if following == ";":
         return "a line of TOML ends without `;`", (_without(source, at),)
     if following == ",":
         return _LIST, ()
-    if following == "." and before[-1:].isdigit():
+    if following == "." and before.isdigit():
         return _instead(source, at, at + 1, ".0", "digits follow the point of a number")
-    if following.isdigit() and before[-1:] == "0":
+    if following.isdigit() and before == "0":
         return "a number does not begin with 0", ()
     if source.text.startswith(("//", "--"), at):
         return _instead(source, at, at + 2, "#", _COMMENT)
