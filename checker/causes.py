@@ -17,12 +17,14 @@ from runtime.executive.outcome import (
     Conflict,
     ConflictElement,
     Deadlock,
+    ElementKind,
     Event,
     EventKind,
     OpenGoal,
     Outcome,
 )
 
+_TIMES = ("start", "end", "duration")
 _ANSWERS = (EventKind.REFUSE, EventKind.REJECT)
 _MISSED = "F6"  # what its owner had refused or rejected
 _MOST_EVENTS = 8  # of the way to the abort, the last ones
@@ -203,3 +205,14 @@ def draws_behind(outcome: Outcome) -> tuple[str, ...]:
 def _drawn(events: Sequence[Event]) -> list[tuple[int, str]]:
     """The indices of draws, in order, with their parameters."""
     return [(index, event.draw.parameter) for index, event in numbered(events) if event.draw is not None]
+
+
+def timed_requests(elements: Sequence[ConflictElement]) -> list[ConflictElement]:
+    """What of a conflict another reactor asked for by, or until, some time."""
+    return [
+        one
+        for one in elements
+        if one.kind is ElementKind.REQUEST
+        and one.place is None
+        and any(variable.name in _TIMES for variable in one.variables)
+    ]

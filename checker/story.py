@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
-from itertools import islice
 
 from checker.batch.result import MissionResult
 from checker.causes import (
@@ -13,6 +12,7 @@ from checker.causes import (
     failed_by,
     lines_that_rule_out,
     missed_after,
+    timed_requests,
 )
 from checker.culprit import culprit_of, in_telling_order
 from checker.findings import Fault
@@ -37,7 +37,6 @@ from runtime.executive.outcome import (
     SourcePlace,
 )
 
-_TIMES = ("start", "end", "duration")
 _MOST_LINES = 8  # that rule out what was tried
 _MOST_LOST = 12  # events that are told of a mission that lost too much
 
@@ -138,16 +137,15 @@ def tell(
 
 def _requests(outcome: Outcome, conflict: Conflict | None) -> Iterator[int]:
     """The last requests of reactors for what the conflict says was asked for by some time."""
-    for element in conflict.elements if conflict is not None else ():
-        is_timed = any(variable.name in _TIMES for variable in element.variables)
-        if element.kind is ElementKind.REQUEST and element.place is None and element.token is not None and is_timed:
+    for element in timed_requests(conflict.elements) if conflict is not None else ():
+        if element.token is not None:
             wanted = element.token.predicate.rpartition(".")[2]
-            sent = (
+            sent = [
                 index
                 for index, event in enumerate(outcome.events)
                 if event.kind is EventKind.REQUEST and event.reactor and event.predicate == wanted
-            )
-            yield from islice(sorted(sent, reverse=True), 1)
+            ]
+            yield from sent[-1:]
 
 
 def _lost(outcome: Outcome, limit: Limit) -> list[Event]:

@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from checker.causes import failed_by
+from checker.causes import failed_by, timed_requests
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.mission import Mission
 from checker.mutation.mission_edits import mission_sites
@@ -20,7 +20,6 @@ from runtime.executive.messages import Arguments
 from runtime.executive.outcome import ConflictElement, ElementKind, EventKind, Outcome
 
 _SPOKEN, _DEAF, _BROKEN, _LOST, _ABORTED, _ASKED, _OTHERS = 0.0, 0.0, 0.5, 1.0, 2.0, 2.5, 3.0
-_TIMES = ("start", "end", "duration")
 _MOST_ASKERS = 4  # goals behind a request, the most urgent first
 _GIVEN_UP = (EventKind.REJECT, EventKind.REFUSE)
 
@@ -72,13 +71,7 @@ def _behind_requests(
     mission: Mission, ended: str, elements: Sequence[ConflictElement], outcome: Outcome
 ) -> frozenset[int]:
     """The goals, not achieved, of reactors that asked the one that ended for something by the time in the conflict."""
-    is_timed = any(
-        variable.name in _TIMES
-        for one in elements
-        if one.kind is ElementKind.REQUEST and one.place is None
-        for variable in one.variables
-    )
-    if not is_timed:
+    if not timed_requests(elements):
         return frozenset()
     asking, known = {ended}, set[str]()
     while asking != known:
