@@ -35,7 +35,7 @@ def condition_evidence(condition: Condition) -> str:
 
 
 def _conjunction_text(conjunction: Conjunction) -> str:
-    """Literals joined by `and`; two limits of one term become a band."""
+    """Literals joined by `and`; two limits of one term become a band, or the one value between them."""
     parts: list[str] = []
     told: set[Feature] = set()
     for literal in conjunction:
@@ -48,6 +48,9 @@ def _conjunction_text(conjunction: Conjunction) -> str:
         above = [one for one in own if one.is_above]
         if len(below) == len(above) == 1 and feature.extreme is Extreme.ONLY:
             low, high = above[0], below[0]
+            if low.edge == high.edge:
+                parts.append(f"{_feature_text(feature)} = {_plain(low.edge)}")
+                continue
             left, right = "<=" if low.holds_at_edge else "<", "<=" if high.holds_at_edge else "<"
             parts.append(f"{_plain(low.edge)} {left} {_feature_text(feature)} {right} {_plain(high.edge)}")
         else:

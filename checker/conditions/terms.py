@@ -204,7 +204,7 @@ def _whole(weights: Sequence[Fraction]) -> _Weights:
 def _product_fit(
     crossings: Sequence[Crossing], chosen: Sequence[int], flights: Flights, chance: np.random.Generator
 ) -> _Fit | None:
-    """The best product of powers: linear in the logarithms."""
+    """The best product of powers: linear in the logarithms of the sizes, whatever the signs."""
     size = len(chosen)
     plain = _Sides(crossings, chosen, [_unit(number, size) for number in range(size)])
     names = [flights.space.names[axis] for axis in chosen]
@@ -212,7 +212,7 @@ def _product_fit(
     seen: set[_Powers] = set()
     for subset in _subsets(plain, size, _MOST_FITS, chance):
         points = plain.middle[list(subset)]
-        powers = _exponents(np.log(points)) if (points > 0.0).all() else None
+        powers = _exponents(np.log(np.abs(points))) if (points != 0.0).all() else None
         if powers is None or powers in seen:
             continue
         seen.add(powers)

@@ -1,6 +1,6 @@
 """A condition of failing separates missions with other draws; what does not is marked or not claimed."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import inf
 from pathlib import Path
@@ -24,6 +24,7 @@ from tests.checker.conditions.campaigns import RANGES, campaign, conditions
 pytestmark = pytest.mark.once
 
 WHOLE = "int P = [0 10]; int Q = [0 10]; float R = [0.0 1.0];"
+SIGNED = "float P = [-1.0 1.0]; float Q = [-1.0 1.0]; float R = [0.0 1.0];"
 GUARDS = "bool u; bool v; u == (p > {0}); v == (q < {1});"
 Truth = Callable[[float, float, float], bool]
 
@@ -63,7 +64,9 @@ def outside_of_a_circle(p: float, q: float, r: float) -> bool:
         ("1.37 * p + q <= 1.6;", RANGES, None, lambda p, q, r: 1.37 * p + q > 1.6),
         ("(p - 0.5) * (p - 0.5) + (q - 0.4) * (q - 0.4) <= 0.2;", RANGES, None, outside_of_a_circle),
         ("p * q + r <= 1.2;", RANGES, "P * Q + R > 1.2", lambda p, q, r: p * q + r > 1.2),
+        ("p * q >= -0.3;", SIGNED, "P * Q < -0.3", lambda p, q, r: p * q < -0.3),
         ("float s; s == p + q; s <= 13.5;", WHOLE, "P + Q >= 14", lambda p, q, r: p + q >= 14),
+        ("p != 3; p != 7;", WHOLE, "P = 7, or P = 3", lambda p, q, r: p in (3, 7)),
     ],
     ids=[
         "half line",
@@ -77,7 +80,9 @@ def outside_of_a_circle(p: float, q: float, r: float) -> bool:
         "odd weight",
         "circle",
         "sum of a product",
+        "product of any sign",
         "whole numbers",
+        "single values",
     ],
 )
 def test_the_truth_is_stated(tmp_path: Path, rule: str, ranges: str, text: str | None, truth: Truth) -> None:
@@ -85,11 +90,12 @@ def test_the_truth_is_stated(tmp_path: Path, rule: str, ranges: str, text: str |
     assert found is not None
     assert text is None or condition_text(found) == text
     chance = np.random.default_rng(5)
-    is_whole = ranges == WHOLE
-    draws = [
-        (float(chance.integers(11)), float(chance.integers(11)), chance.random()) if is_whole else chance.random(3)
-        for _ in range(2000)
-    ]
+    draw: dict[str, Callable[[], Sequence[float]]] = {
+        RANGES: lambda: tuple(chance.random(3)),
+        SIGNED: lambda: (*chance.uniform(-1.0, 1.0, 2), chance.random()),
+        WHOLE: lambda: (float(chance.integers(11)), float(chance.integers(11)), chance.random()),
+    }
+    draws = [draw[ranges]() for _ in range(2000)]
     fails = [truth(*draw) for draw in draws]
     claimed = [holds(found.conjunctions, {name: (v, v) for name, v in zip("PQR", d, strict=True)}) for d in draws]
     both = sum(one and other for one, other in zip(fails, claimed, strict=True))
