@@ -11,8 +11,9 @@ from enum import StrEnum
 from pathlib import Path
 
 from checker.counterfactual.candidates import Candidate
+from checker.counterfactual.damage import HEAVY
 from checker.counterfactual.smallness import is_loosening
-from checker.counterfactual.trials import HEAVY, LineTrial, Loose, Trials, TrialsEnd
+from checker.counterfactual.trials import LineTrial, Loose, Trials, TrialsEnd
 from checker.mutation.edits import EditKind, SmallEdit
 from checker.names import relative_name
 from runtime.executive.outcome import SourcePlace

@@ -10,12 +10,13 @@ from pathlib import Path
 from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import candidates_of
+from checker.counterfactual.damage import HEAVY, damage_of
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.loose_ends import loose_ends
 from checker.counterfactual.mission_lines import mission_lines
 from checker.counterfactual.ranking import Causes, Claim, RankedLine, rank
 from checker.counterfactual.smallness import usage_of
-from checker.counterfactual.trials import HEAVY, Bounds, Missions, Trials, damage_of, try_out
+from checker.counterfactual.trials import Bounds, Missions, Trials, try_out
 from checker.coverage import Universe
 from checker.losses import Limit
 from checker.mission import Mission

@@ -48,9 +48,11 @@ _AGREES = 1.5  # odds that both sides of `==` are of one type
 _VALUE = 1.7  # of another value: few lines have one, so their number says little
 _TURNED = 1.5  # odds of a relation of two named tokens that says the same with the tokens swapped
 _CASE = 1.0  # odds that no two conditions of a rule ask for the same value
+_LAST_CASE = 2.0  # odds that no value of an enumeration is for nothing, where all others have their use
 _UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
 _FREED = 2.0  # odds that a line which alone says what a variable is says it with `==`
 _FLOW = 2.0  # odds that a resource is both consumed and produced
+_NOTHING = 1.0  # odds that a number which has a name is not 0
 _SUM = 1.5  # how much the odds count of a sign that stands between the same words elsewhere
 _RARE = 0.3  # all other words
 _LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
@@ -91,6 +93,15 @@ class Usage:
     def strands(self, edit: SmallEdit) -> bool:
         """Whether a change leaves a declared constant without any use."""
         return edit.old in self.named and edit.old not in self.sampled and self.counts[edit.old] == 1
+
+    def strands_value(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether a change leaves one value of an enumeration without a line, where lines speak of all others.
+
+        Of truth values nothing is known.
+        """
+        others = {one.new for one in site.edits if one.kind is EditKind.VALUE and one.begin == edit.begin}
+        is_last = edit.new not in TRUTHS and self.counts[edit.old.rpartition(".")[2]] == 1
+        return is_last and all(self.counts[other] for other in others)
 
     def twins(self, edit: SmallEdit, site: EditSite) -> int:
         """1 for a change after which a line is written as one of another rule, less 1 for a line that is so already.
@@ -184,7 +195,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return 1.5 - _IDLE * usage.is_swapped(edit) - belongs
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
             far = 0.0 if site.named and float(edit.old) == 0.0 else _octaves(edit)  # who names a number has one
-            return 1.0 + _OCTAVE * far + _DIGIT * (_digits(edit.new) - _digits(edit.old))
+            nothing = _NOTHING * (bool(site.named) and float(edit.old) == 0.0)
+            return 1.0 - nothing + _OCTAVE * far + _DIGIT * (_digits(edit.new) - _digits(edit.old))
         case EditKind.ARGUMENTS if is_put_in_order(edit, site):
             return 0.0
         case EditKind.PROMISE:
@@ -201,7 +213,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return 3.0
         case EditKind.VALUE:
             is_case = edit.old not in TRUTHS and not site.text.endswith(";")
-            return _VALUE - (_CASE * usage.mentions.case_gain(edit, site) if is_case else 0.0)
+            cases = _CASE * usage.mentions.case_gain(edit, site) if is_case else 0.0
+            return _VALUE + _LAST_CASE * usage.strands_value(edit, site) - cases
         case EditKind.NAME | EditKind.POINT | EditKind.TOKEN:
             return 2.0 - usage.fitness(edit, site)
         case _:
@@ -323,6 +336,7 @@ def alternatives(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdi
         (cost_of(other, site, usage), number, other)
         for number, other in enumerate(site.edits)
         if other != edit and other.kind not in DROPPED
+        if _is_apart(other, edit) or _direction(other) == _direction(edit)
     ]
     return [other for cost, _, other in sorted(others)[:_MOST_FOLLOW_UPS] if cost <= most]
 

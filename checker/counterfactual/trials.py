@@ -5,7 +5,7 @@ to the least likely and end after so many flights or seconds: what could not be 
 """
 
 import time
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -15,6 +15,7 @@ from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.counterfactual.bounds import sets_value
 from checker.counterfactual.candidates import Candidate, Suspicion
+from checker.counterfactual.damage import HEAVY, damage_of, strayed_of
 from checker.counterfactual.smallness import (
     Usage,
     alternatives,
@@ -25,8 +26,6 @@ from checker.counterfactual.smallness import (
     is_loosening,
 )
 from checker.counterfactual.turns import Turns
-from checker.coverage import left_out
-from checker.losses import GoalFate
 from checker.mutation.edits import EditKind, EditSite, SmallEdit
 from checker.oracle import Verdict
 from runtime.executive.events import single_events
@@ -41,8 +40,7 @@ _TOLD = 3  # small changes of models beside which a goal is not doubted
 _NAMESAKE = 0.2  # how much later a name is tried at each further line of a rule
 _CONFIRMED = 3  # causes that are tried on other missions too
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
-HEAVY = 10.0  # damage of a mission that passes without a goal
-_STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
+_UNTRIED = 0.3  # odds that a change helps in other missions, once it was tried in some
 _NEAR = 0.25  # distance of what a conflict speaks of
 _PROBE = -0.1  # when such a line is left out: where that helps, it is at fault or what it compares is
 _OTHER_WAY = 0.3  # when the number where it breaks is doubled or halved, whichever looks worse
@@ -79,6 +77,7 @@ class LineTrial:
     """A change that makes the mission pass: what is still lost then, and on how many failed missions it helps.
 
     `spoilt` missions passed before and do not with the change; `is_evasive`: what is usual does not happen then.
+    `is_untried`: it was tried on no other mission.
     """
 
     candidate: Candidate
@@ -89,6 +88,7 @@ class LineTrial:
     missions: int = 1
     spoilt: int = 0
     is_evasive: bool = False
+    is_untried: bool = True
 
     @property
     def toll(self) -> float:
@@ -101,9 +101,14 @@ class LineTrial:
         return self.toll < HEAVY and is_loosening(self.edit, self.candidate.site), self.toll
 
     @property
+    def is_clean(self) -> bool:
+        """Whether it helps all missions that it was tried on, and spoils none."""
+        return self.helped == self.missions and not self.spoilt
+
+    @property
     def weight(self) -> tuple[float, float, float]:
         """What causes are ranked by: missions that fail with it; what is lost, how likely it is, and how far off."""
-        change = self.toll + _FAR * self.candidate.far
+        change = self.toll + _FAR * self.candidate.far + _UNTRIED * self.is_untried
         return self.spoilt + 1.0 - self.helped / self.missions, change, self.cost
 
 
@@ -191,6 +196,7 @@ def try_out(
     course = _course(failed[0])
     is_told = failed_by(failed[0].outcome).deadlock is None  # what rules out a plan may do so before a line counts
     best: dict[EditSite, LineTrial] = {}
+    helping: dict[EditSite, list[LineTrial]] = defaultdict(list)
     tried: set[tuple[EditSite, SmallEdit]] = set()
     outside = [(candidate, edit) for candidate in last for edit in candidate.site.edits]
     outside = [one for one in outside if delay_of(one[1], one[0].site, usage) is None][:_MOST_OUTSIDE]
@@ -206,13 +212,15 @@ def try_out(
         tried.add((site, edit))
         result = trials.fly(edit, failed[0])
         if result.verdict is not Verdict.PASS:
-            if is_told and _course(result) == course:
+            if trials.is_lost:
+                turns.avoid(edit)
+            if trials.is_lost or (is_told and _course(result) == course):
                 turns.doubt(site, edit.begin)
             continue
-        damage = damage_of(result) + _strayed(result, failed[0])
-        if damage < HEAVY:
+        trial = trials.read(candidate, edit, cost, result)
+        if trial.damage < HEAVY:
             turns.favour(site)
-        trial = LineTrial(candidate, edit, damage, cost, is_evasive=missions.is_evasive(result))
+        helping[site].append(trial)
         if known is None or trial.order < known.order:
             best[site] = trial
         for other in follow_ups(edit, site, usage) if trial.damage < HEAVY else ():
@@ -225,19 +233,18 @@ def try_out(
             tried.add((candidate.site, edit))
             result = trials.fly(edit, failed[0])
             if result.verdict is Verdict.PASS:
-                damage, cost = damage_of(result) + _strayed(result, failed[0]), cost_of(edit, candidate.site, usage)
-                trial = LineTrial(candidate, edit, damage, cost, is_evasive=missions.is_evasive(result))
+                trial = trials.read(candidate, edit, cost_of(edit, candidate.site, usage), result)
                 known = best.get(candidate.site)
                 if known is None or trial.order < known.order:
                     best[candidate.site] = trial
     trials.resume()
     ranked = sorted(best.values(), key=lambda one: one.weight)
     confirmed: list[LineTrial] = []
-    while ranked and sum(not one.spoilt for one in confirmed) < _CONFIRMED:
-        confirmed.append(trials.confirmed(ranked.pop(0), usage))
+    while ranked and sum(one.is_clean for one in confirmed) < _CONFIRMED:
+        trial = ranked.pop(0)
+        confirmed.append(trials.confirmed(trial, helping[trial.candidate.site], usage))
     ranked = sorted([*confirmed, *ranked], key=lambda one: one.weight)
-    is_all = not turns
-    ended = trials.ended or (TrialsEnd.COMPLETE if is_all else TrialsEnd.FLIGHTS)
+    ended = trials.ended or (TrialsEnd.FLIGHTS if turns else TrialsEnd.COMPLETE)
     lines = len({site for site, _ in tried})
     return Trials(tuple(ranked), tuple(candidates), lines, trials.flights, ended)
 
@@ -275,20 +282,6 @@ def _first_edits(site: EditSite, usage: Usage) -> list[tuple[float, SmallEdit]]:
     return [(delay, edit) for delay, _, edit in wanted]
 
 
-def damage_of(result: MissionResult) -> float:
-    """What a mission that passed has lost all the same: goals weigh most, then requests, then repairs."""
-    losses = result.losses
-    goals = len(losses.goals) - losses.count(GoalFate.ACHIEVED)
-    return 10.0 * goals + 1.0 * (losses.lost + losses.dropped) + 0.5 * losses.repaired
-
-
-def _strayed(result: MissionResult, failed: MissionResult) -> float:
-    """What a mission that passes no longer does of what the failed one did before it failed."""
-    if result.outcome is None or failed.outcome is None:
-        return 0.0
-    return min(_STRAYED * left_out(failed.outcome.behaviour, result.outcome.behaviour), _MOST_STRAYED)
-
-
 def _course(result: MissionResult) -> tuple[object, ...]:
     """What happened in a mission, without when it was planned and why."""
     events = single_events(result.outcome.events) if result.outcome is not None else ()
@@ -301,6 +294,7 @@ class _Trials:
     def __init__(self, missions: Missions, fly: Try, bounds: Bounds) -> None:
         self.missions, self._fly, self.bounds = missions, fly, bounds
         self.flights = 0
+        self.is_lost = False  # whether the last flight was given up
         self.ended: TrialsEnd | None = None
         self._begun = time.monotonic()
         self._slowest: float | None = None
@@ -333,39 +327,64 @@ class _Trials:
         except InterruptedSearch:
             self.ended = TrialsEnd.CANCELLED
             return replace(mission, judgement=replace(mission.judgement, verdict=Verdict.ERROR))
+        taken = time.monotonic() - begun
+        self.is_lost = result.verdict is Verdict.ERROR and taken >= most
         if result.verdict is not Verdict.ERROR:
-            self._slowest = max(self._slowest or 0.0, time.monotonic() - begun)
+            self._slowest = max(self._slowest or 0.0, taken)
         return result
 
-    def confirmed(self, trial: LineTrial, usage: Usage) -> LineTrial:
-        """The trial with what it does to the other failed missions; of its line, the edit that helps more of them."""
-        helped, missions, damage, spoilt = 1, 1, trial.damage, 0
-        unhelped: list[MissionResult] = []
-        first, *others = self.missions.failed
+    def read(self, candidate: Candidate, edit: SmallEdit, cost: float, result: MissionResult) -> LineTrial:
+        """What a flight of the first failed mission tells that passes with an edit."""
+        damage = damage_of(result) + strayed_of(result, self.missions.failed[0])
+        return LineTrial(candidate, edit, damage, cost, is_evasive=self.missions.is_evasive(result))
+
+    def confirmed(self, trial: LineTrial, helping: Sequence[LineTrial], usage: Usage) -> LineTrial:
+        """The trial with what it does to the other missions; of its line, the likeliest edit that helps all, if any.
+
+        Tried are those that were `helping` the first mission already, and others that change about as much.
+        """
+        if not self.may_go_on():
+            return trial
+        found, against = self._on_others(trial)
+        if against is None:
+            return found
+        site = trial.candidate.site
+        known = {one.edit: one for one in helping if one.edit != trial.edit}
+        others = dict.fromkeys((*known, *alternatives(trial.edit, site, usage)))
+        for edit in sorted(others, key=lambda one: (is_loosening(one, site), cost_of(one, site, usage))):
+            if not self.may_go_on(0 if edit in known else 1) or self.fly(edit, against).verdict is not Verdict.PASS:
+                continue
+            other = known.get(edit)
+            if other is None and (result := self.fly(edit, self.missions.failed[0])).verdict is Verdict.PASS:
+                other = self.read(trial.candidate, edit, cost_of(edit, site, usage), result)
+            if other is not None:
+                again, _ = self._on_others(other, against)
+                if again.is_clean:
+                    return again
+        return found
+
+    def _on_others(
+        self, trial: LineTrial, known: MissionResult | None = None
+    ) -> tuple[LineTrial, MissionResult | None]:
+        """The trial after flights of the other missions, but for one `known` to pass; the first that fails with it."""
+        helped, missions, damage, against = 1, 1, trial.damage, None
+        trial = replace(trial, is_untried=False)
         for mission in self.missions.passed:
+            if mission is known:
+                continue
             if not self.may_go_on():
                 break
             if self.fly(trial.edit, mission).verdict is not Verdict.PASS:
-                spoilt = 1
-                break
-        for mission in others:
-            if spoilt or not self.may_go_on():
-                break
-            result = self.fly(trial.edit, mission)
-            missions += 1
-            if result.verdict is Verdict.PASS:
-                helped += 1
-                damage = max(damage, damage_of(result) + _strayed(result, mission))
-            else:
-                unhelped.append(mission)
-        site = trial.candidate.site
-        for other in alternatives(trial.edit, site, usage) if unhelped else ():
-            if not self.may_go_on(1) or self.fly(other, unhelped[0]).verdict is not Verdict.PASS:
-                continue
-            again = self.fly(other, first)
-            if again.verdict is Verdict.PASS:
-                cost = cost_of(other, site, usage)
-                damage = damage_of(again) + _strayed(again, first)
-                is_evasive = self.missions.is_evasive(again)
-                return LineTrial(trial.candidate, other, damage, cost, missions, missions, is_evasive=is_evasive)
-        return replace(trial, damage=damage, helped=helped, missions=missions, spoilt=spoilt)
+                return replace(trial, spoilt=1), mission
+        for mission in self.missions.failed[1:]:
+            if mission is known:
+                helped, missions = helped + 1, missions + 1
+            elif self.may_go_on():
+                result = self.fly(trial.edit, mission)
+                missions += 1
+                if result.verdict is Verdict.PASS:
+                    helped += 1
+                    damage = max(damage, damage_of(result) + strayed_of(result, mission))
+                else:
+                    against = against or mission
+        return replace(trial, damage=damage, helped=helped, missions=missions), against

@@ -2,7 +2,7 @@
 
 Where a change of a line has helped, the mistake is at that line or at one that hangs together with it by a variable:
 `REPORT_AFTER` ten times as large helps where `take.start` is written for `take.end` beside it. Where a change left the
-failure as it was, to the last event, the line has no part in it.
+failure as it was, to the last event, the line has no part in it. What was given up as it took too long elsewhere waits.
 """
 
 import heapq
@@ -14,6 +14,7 @@ from checker.mutation.edits import EditSite, SmallEdit
 
 _BESIDE = 0.5  # how much of the wait is left for an edit of a line beside one that has helped
 _IDLE = 0.8  # how much later the edits of a line are tried that has no part in the failure
+_ENDLESS = 3.0  # how much later what may leave a search without an end, as it did elsewhere
 
 _Entry = tuple[float, int, Candidate, SmallEdit]
 
@@ -54,8 +55,15 @@ class Turns:
         """Try what else may stand at a place of a line later."""
         if (site, place) not in self._doubted:
             self._doubted.add((site, place))
-            self._queue = [
-                (at + _IDLE if candidate.site is site and edit.begin == place else at, number, candidate, edit)
-                for at, number, candidate, edit in self._queue
-            ]
-            heapq.heapify(self._queue)
+            self._delay(_IDLE, lambda candidate, edit: candidate.site is site and edit.begin == place)
+
+    def avoid(self, lost: SmallEdit) -> None:
+        """Try what else writes a word later that left a flight without an end: it costs as much as many others."""
+        self._delay(_ENDLESS, lambda _, edit: edit.kind is lost.kind and edit.new == lost.new)
+
+    def _delay(self, wait: float, concerns: Callable[[Candidate, SmallEdit], bool]) -> None:
+        self._queue = [
+            (at + wait if concerns(candidate, edit) else at, number, candidate, edit)
+            for at, number, candidate, edit in self._queue
+        ]
+        heapq.heapify(self._queue)

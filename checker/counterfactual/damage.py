@@ -1,0 +1,22 @@
+"""A mission that passed with a change in; out: what it has lost all the same, or no longer does, as a number."""
+
+from checker.batch.result import MissionResult
+from checker.coverage import left_out
+from checker.losses import GoalFate
+
+HEAVY = 10.0  # damage of a mission that passes without a goal
+_STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
+
+
+def damage_of(result: MissionResult) -> float:
+    """What a mission that passed has lost all the same: goals weigh most, then requests, then repairs."""
+    losses = result.losses
+    goals = len(losses.goals) - losses.count(GoalFate.ACHIEVED)
+    return 10.0 * goals + 1.0 * (losses.lost + losses.dropped) + 0.5 * losses.repaired
+
+
+def strayed_of(result: MissionResult, failed: MissionResult) -> float:
+    """What a mission that passes no longer does of what the failed one did before it failed."""
+    if result.outcome is None or failed.outcome is None:
+        return 0.0
+    return min(_STRAYED * left_out(failed.outcome.behaviour, result.outcome.behaviour), _MOST_STRAYED)

@@ -1,0 +1,116 @@
+"""Trials of a fault are counted for what was flown; what a name or a value of an enumeration says for a change."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from checker.batch.result import MissionResult
+from checker.counterfactual.candidates import Candidate, Suspicion
+from checker.counterfactual.smallness import cost_of, usage_of
+from checker.counterfactual.trials import Bounds, Missions, Trials, Try, try_out
+from checker.counterfactual.turns import Turns
+from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
+from checker.mutation.variant import load_graph
+from checker.oracle import Judgement, Verdict
+from runtime.executive.outcome import Outcome
+
+MODEL = """#include "TREX.nddl"
+int GRACE;
+int SPAN;
+GRACE = 0;
+SPAN = 60;
+enum Flag { red, amber }
+enum Load { crate, barrel, sack }
+class Mast extends AgentTimeline {
+  predicate Bare { }
+  predicate Flies { Flag flag; Load load; int by; }
+  Mast(Mode m) { super(m, "Bare"); }
+}
+Mast::Flies {
+  duration <= SPAN;
+  met_by(object.Flies last);
+  meets(object.Flies next);
+  last.flag == red;
+  next.flag == amber;
+  last.load == crate;
+  next.load == barrel;
+  by == start + GRACE;
+}
+"""
+
+
+def sites(folder: Path) -> dict[str, EditSite]:
+    """The sites of the model by their text."""
+    (folder / "mast.nddl").write_text(MODEL, encoding="utf-8")
+    return {site.text: site for site in sites_of(load_graph(folder / "mast.nddl", ()))}
+
+
+def result(number: int, verdict: Verdict) -> MissionResult:
+    return MissionResult(number, number, Judgement(verdict, "F3"), Outcome(number, 90, 200, None, (), (), ()), True)
+
+
+def tried(found: dict[str, EditSite], texts: Sequence[str], fly: Try, failed: int = 3, passed: int = 1) -> Trials:
+    """What trials at some lines tell of so many missions."""
+    candidates = [Candidate(found[text], 0.0, Suspicion.CONFLICT) for text in texts]
+    missions = Missions(
+        [result(number, Verdict.FAIL) for number in range(1, failed + 1)],
+        [result(100 + number, Verdict.PASS) for number in range(passed)],
+    )
+    return try_out(candidates, missions, usage_of(list(found.values())), fly, Bounds())
+
+
+def test_of_a_line_the_edit_that_helps_all_missions_is_told_and_was_flown_in_each(tmp_path: Path) -> None:
+    flown: set[tuple[str, str, int]] = set()
+
+    def fly(edit: SmallEdit, mission: MissionResult, _: float) -> MissionResult:
+        flown.add((edit.old, edit.new, mission.number))
+        helps = {"120": (1, 3, 100), "600": (1, 2, 3, 100)}.get(edit.new, ())
+        return result(mission.number, Verdict.PASS if mission.number in helps else Verdict.FAIL)
+
+    (cause,) = tried(sites(tmp_path), ["SPAN = 60;"], fly).causes
+    assert (cause.edit.new, cause.helped, cause.missions, cause.spoilt) == ("600", 3, 3, 0)
+    assert {("60", new, 1) for new in ("120", "600")} <= flown
+    assert {("60", "600", number) for number in (1, 2, 3, 100)} <= flown
+
+
+def test_an_edit_that_spoils_what_passed_gives_way_to_one_that_does_not(tmp_path: Path) -> None:
+    def fly(edit: SmallEdit, mission: MissionResult, _: float) -> MissionResult:
+        helps = {"1": (1, 2, 100), "5": (1, 2)}.get(edit.new, ()) if edit.old == "0" else ()
+        return result(mission.number, Verdict.PASS if mission.number in helps else Verdict.FAIL)
+
+    (cause,) = tried(sites(tmp_path), ["GRACE = 0;"], fly, failed=2).causes
+    assert (cause.edit.new, cause.helped, cause.missions, cause.spoilt) == ("1", 2, 2, 0)
+
+
+def cheapest(site: EditSite, found: dict[str, EditSite], kind: EditKind) -> float:
+    usage = usage_of(list(found.values()))
+    return min(cost_of(edit, site, usage) for edit in site.edits if edit.kind is kind)
+
+
+def test_a_number_that_has_a_name_is_hardly_nothing(tmp_path: Path) -> None:
+    found = sites(tmp_path)
+    costs = [cheapest(found[text], found, EditKind.OFF_BY_ONE) for text in ("GRACE = 0;", "SPAN = 60;")]
+    assert costs[0] < costs[1] - 0.5
+
+
+def test_a_value_of_an_enumeration_is_hardly_left_without_a_line_where_all_others_have_one(tmp_path: Path) -> None:
+    found = sites(tmp_path)
+    costs = [cheapest(found[text], found, EditKind.VALUE) for text in ("last.flag == red;", "last.load == crate;")]
+    assert costs[0] > costs[1] + 1.0  # no line speaks of a sack either
+
+
+def test_a_word_that_left_a_flight_without_an_end_waits_at_other_lines() -> None:
+    def candidate(text: str) -> Candidate:
+        edits = tuple(SmallEdit(EditKind.VALUE, "a.nddl", 3, 4, "red", new, 1) for new in ("amber", "green"))
+        return Candidate(EditSite("a.nddl", 1, 1, 1, "", (1, 1), text, edits), 0.0, Suspicion.TRACE)
+
+    turns = Turns(lambda _: ())
+    one, other = candidate("one"), candidate("other")
+    for at, each in ((0.5, one), (0.6, other)):
+        for edit in each.site.edits:
+            turns.add(at, each, edit)
+    turns.avoid(turns.pop()[2])
+    order = []
+    while turns:
+        _, each, edit = turns.pop()
+        order.append((each.site.text, edit.new))
+    assert order == [("one", "green"), ("other", "green"), ("other", "amber")]
