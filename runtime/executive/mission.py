@@ -13,12 +13,13 @@ from runtime.executive.coded_reactor import CodedReactor
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, Value
 from runtime.executive.draws import Draws, World
 from runtime.executive.messages import Arguments, Request
-from runtime.executive.outcome import Abort, EventKind, Outcome, Reason, ReasonKind
+from runtime.executive.outcome import Abort, Conflict, EventKind, Outcome, Reason, ReasonKind
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.planning import Planner
 from runtime.executive.reactor import TeleoReactor
 from runtime.executive.record import MissionRecord
 from runtime.executive.stock import Loans
+from runtime.executive.story import conflict_of
 from runtime.executive.trace import Trace
 from runtime.executive.view import whole_bound
 from runtime.executive.workbench import Workbench
@@ -30,11 +31,11 @@ from runtime.user.reactor import Reactor as UserReactor
 
 
 class UnusableModelError(ValueError):
-    """A model that cannot be executed: its script is stopped by a fault, or contradicts itself."""
+    """A model that cannot be executed: its script is stopped by a fault, or contradicts itself by a `conflict`."""
 
-    def __init__(self, message: str, reactor: str = "") -> None:
+    def __init__(self, message: str, reactor: str = "", conflict: Conflict | None = None) -> None:
         super().__init__(message)
-        self.reactor = reactor
+        self.reactor, self.conflict = reactor, conflict
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,10 +121,11 @@ def _unloaded(configuration: AgentConfiguration, problem: UnusableModelError, wo
     """The outcome of a mission of which a model does not load."""
     trace = world.trace
     reason = Reason(ReasonKind.UNLOADABLE, tick=0, message=str(problem))
+    causes = tuple(range(len(trace.events)))
     event = trace.record(
-        EventKind.ABORT, problem.reactor, causes=tuple(range(len(trace.events))), code="F9", reason=reason
+        EventKind.ABORT, problem.reactor, causes=causes, code="F9", reason=reason, conflict=problem.conflict
     )
-    abort = Abort("F9", 0, problem.reactor, (), reason, None, 0, event)
+    abort = Abort("F9", 0, problem.reactor, (), reason, problem.conflict, 0, event)
     draws, events = tuple(trace.draws), trace.events
     return Outcome(world.seed, 0, configuration.final_tick, abort, draws, events, ())
 
@@ -211,7 +213,8 @@ def loaded_bench(
     holds = holds and bench.set_global("MISSION_END", configuration.final_tick)
     holds = holds and bench.start_clock(configuration.final_tick)
     if not holds or not bench.is_consistent():
-        raise UnusableModelError(f"the model of `{name}` contradicts itself before the mission begins", name)
+        message = f"the model of `{name}` contradicts itself before the mission begins"
+        raise UnusableModelError(message, name, conflict_of(bench))
     bench.commit()
     return bench
 

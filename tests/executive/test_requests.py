@@ -72,3 +72,6 @@ def test_a_model_that_what_was_drawn_contradicts_is_f9() -> None:
         assert (outcome.abort is None) == (value < 5)
         if outcome.abort is not None:
             assert (outcome.abort.code, outcome.abort.tick, outcome.last_tick) == ("F9", 0, 0)
+            conflict = outcome.abort.conflict
+            assert conflict is not None and conflict.parameters == ("D",)
+            assert {"g.n <= 5", "ceil(d)"} <= {one.place.text.rstrip(";") for one in conflict.elements if one.place}
