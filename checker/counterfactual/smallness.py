@@ -260,7 +260,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             neutral = _LATE if edit.new in usage.named or is_set else 0.7
             return 0.5 - 0.6 * fitness if fitness > 0.0 else neutral - fitness
         case EditKind.VALUE:
-            return -0.4 + _LATER * usage.passing
+            alike = sum(one.kind is EditKind.VALUE and one.begin == edit.begin for one in site.edits)
+            return -0.4 + _LATER * usage.passing + _UNUSUAL * math.log(alike)  # one of many is meant less often each
         case EditKind.PREDICATE if edit.old in EVENTS:
             return _SIDE
         case EditKind.POINT | EditKind.TOKEN | EditKind.PREDICATE:

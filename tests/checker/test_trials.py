@@ -5,7 +5,7 @@ from pathlib import Path
 
 from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import Candidate, Suspicion
-from checker.counterfactual.smallness import cost_of, usage_of
+from checker.counterfactual.smallness import cost_of, delay_of, usage_of
 from checker.counterfactual.trials import Bounds, Missions, Trials, Try, try_out
 from checker.counterfactual.turns import Turns
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
@@ -96,6 +96,18 @@ def test_a_value_of_an_enumeration_is_hardly_left_without_a_line_where_all_other
     found = sites(tmp_path)
     costs = [cheapest(found[text], found, EditKind.VALUE) for text in ("last.flag == red;", "last.load == crate;")]
     assert costs[0] > costs[1] + 1.0  # no line speaks of a sack either
+
+
+def test_each_of_many_values_of_an_enumeration_is_tried_later_than_the_only_other_one(tmp_path: Path) -> None:
+    found = sites(tmp_path)
+    usage = usage_of(list(found.values()))
+    turns = {
+        text: [delay_of(edit, found[text], usage) for edit in found[text].edits if edit.kind is EditKind.VALUE]
+        for text in ("last.flag == red;", "last.load == crate;")
+    }
+    (only,) = turns["last.flag == red;"]
+    first, second = turns["last.load == crate;"]
+    assert only is not None and first is not None and only < first == second
 
 
 def test_a_word_that_left_a_flight_without_an_end_waits_at_other_lines() -> None:
