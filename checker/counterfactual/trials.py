@@ -23,6 +23,7 @@ from checker.counterfactual.smallness import (
     follow_ups,
     is_doubling,
     is_loosening,
+    is_order_turned,
 )
 from checker.counterfactual.turns import Turns
 from checker.coverage import left_out
@@ -43,8 +44,9 @@ _CONFIRMED = 3  # causes that are tried on other missions too
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
 HEAVY = 10.0  # damage of a mission that passes without a goal
 _STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
-_NEAR = 0.25  # distance of what a conflict speaks of
+_NEAR, _SEARCHED = 0.25, 0.5  # distance of what a conflict speaks of, and of what ruled out a choice of a search
 _PROBE = -0.1  # when such a line is left out: where that helps, it is at fault or what it compares is
+_TURNED = 0.0  # and when the order of two of its tokens is turned round
 _OTHER_WAY = 0.3  # when the number where it breaks is doubled or halved, whichever looks worse
 _CONSTANT = 1.0  # how much nearer a constant counts: it stands for its number in the line that reads it
 _SLOW = 8.0  # times the slowest flight before that passed or failed: a change may leave a search without an end
@@ -173,21 +175,26 @@ def try_out(
     named: Counter[tuple[str, tuple[int, int], str]] = Counter()
     for candidate in (*last, *candidates):
         earlier: Counter[int] = Counter()
+        is_spoken = _is_spoken(candidate)
         far = max(candidate.far - candidate.nearer - _CONSTANT * candidate.site.is_number, 0.0)
         for delay, edit in _first_edits(candidate.site, usage):
-            if _is_probe(edit) and _is_spoken(candidate):
+            if _is_probe(edit) and is_spoken:
                 delay = min(delay, _PROBE)
             if is_doubling(edit) and _is_culprit(candidate):
                 delay = min(delay, _OTHER_WAY)
-            at = (_REACH if candidate.site.is_number else _NEARNESS) * far + delay
-            if edit.kind is not EditKind.VALUE:  # of which there are few
-                at += _TURN * earlier[edit.begin] + _PLACE * len(earlier)
+            at = (_REACH if candidate.site.is_number else _NEARNESS) * far + delay - candidate.told
+            if is_spoken and is_order_turned(edit, candidate.site):
+                at = min(at, _TURNED)
+            else:
+                at += _TURN * earlier[edit.begin] + _PLACE * len(earlier) * (edit.kind is not EditKind.VALUE)
                 earlier[edit.begin] += 1
-            if edit.kind is EditKind.NAME:  # what lacks a mention lacks it at one line
+            if (
+                edit.kind is EditKind.NAME and usage.affinity.kindred(edit, candidate.site) <= 0
+            ):  # what lacks a mention lacks it at one line
                 at += _NAMESAKE * named[candidate.site.file, candidate.site.scope, edit.new]
                 named[candidate.site.file, candidate.site.scope, edit.new] += 1
             turns.add(at, candidate, edit)
-    reserve = min(_CONFIRMED * (len(failed) - 1 + len(missions.passed)), bounds.flights // 4)
+    others = len(failed) - 1 + len(missions.passed)
     course = _course(failed[0])
     is_told = failed_by(failed[0].outcome).deadlock is None  # what rules out a plan may do so before a line counts
     best: dict[EditSite, LineTrial] = {}
@@ -195,7 +202,7 @@ def try_out(
     outside = [(candidate, edit) for candidate in last for edit in candidate.site.edits]
     outside = [one for one in outside if delay_of(one[1], one[0].site, usage) is None][:_MOST_OUTSIDE]
     spoken = sum(candidate.source is Suspicion.CONFLICT for candidate, _ in outside)
-    while turns and trials.may_go_on(reserve + (spoken if _small(best) else len(outside))):
+    while turns and trials.may_go_on(_reserve(best, others, bounds) + (spoken if _small(best) else len(outside))):
         at, candidate, edit = turns.pop()
         site = candidate.site
         cost = cost_of(edit, site, usage)
@@ -207,7 +214,7 @@ def try_out(
         result = trials.fly(edit, failed[0])
         if result.verdict is not Verdict.PASS:
             if is_told and _course(result) == course:
-                turns.doubt(site, edit.begin)
+                turns.doubt(site, None if _is_probe(edit) else edit.begin)
             continue
         damage = damage_of(result) + _strayed(result, failed[0])
         if damage < HEAVY:
@@ -221,7 +228,7 @@ def try_out(
     small = _small(best)
     for candidate, edit in outside:
         is_wanted = candidate.source is Suspicion.CONFLICT or small < (_TOLD if edit.kind is EditKind.GOAL else 1)
-        if is_wanted and trials.may_go_on(reserve):
+        if is_wanted and trials.may_go_on(_reserve(best, others, bounds)):
             tried.add((candidate.site, edit))
             result = trials.fly(edit, failed[0])
             if result.verdict is Verdict.PASS:
@@ -242,14 +249,20 @@ def try_out(
     return Trials(tuple(ranked), tuple(candidates), lines, trials.flights, ended)
 
 
+def _reserve(best: Mapping[EditSite, LineTrial], others: int, bounds: Bounds) -> int:
+    """Flights that are kept for the other missions: for each cause that is known, and for one more."""
+    return min(min(len(best) + 1, _CONFIRMED) * others, bounds.flights // 4)
+
+
 def _is_culprit(candidate: Candidate) -> bool:
     """Whether a line, or the constant that it compares with, is where the conflict gave way."""
     return candidate.source is Suspicion.CONFLICT and candidate.far == 0.0
 
 
 def _is_spoken(candidate: Candidate) -> bool:
-    """Whether the conflict that ended the mission speaks of a line."""
-    return candidate.source is Suspicion.CONFLICT and candidate.far <= _NEAR
+    """Whether the conflict that ended the mission speaks of a line, or what a search tried in vain."""
+    is_searched = candidate.source is Suspicion.SEARCH and candidate.far <= _SEARCHED
+    return is_searched or (candidate.source is Suspicion.CONFLICT and candidate.far <= _NEAR)
 
 
 def _is_probe(edit: SmallEdit) -> bool:
