@@ -51,6 +51,7 @@ _OTHER_WAY = 0.3  # when the number where it breaks is doubled or halved, whiche
 _CONSTANT = 1.0  # how much nearer a constant counts: it stands for its number in the line that reads it
 _SLOW = 8.0  # times the slowest flight before that passed or failed: a change may leave a search without an end
 _LEAST_SECONDS = 3.0  # that a flight may take
+_MODELS = 0.75  # of the time for changes of models, where the mission file is to be tried too
 _SHARE = 0.25  # of the time that is left, for one flight
 _FOLLOWED = 0.35  # how much likelier a change of a line is once another change of that line has helped
 
@@ -202,7 +203,10 @@ def try_out(
     outside = [(candidate, edit) for candidate in last for edit in candidate.site.edits]
     outside = [one for one in outside if delay_of(one[1], one[0].site, usage) is None][:_MOST_OUTSIDE]
     spoken = sum(candidate.source is Suspicion.CONFLICT for candidate, _ in outside)
-    while turns and trials.may_go_on(_reserve(best, others, bounds) + (spoken if _small(best) else len(outside))):
+    share = _MODELS if outside else 1.0
+    while turns and trials.may_go_on(
+        _reserve(best, others, bounds) + (spoken if _small(best) else len(outside)), share
+    ):
         at, candidate, edit = turns.pop()
         site = candidate.site
         cost = cost_of(edit, site, usage)
@@ -244,7 +248,7 @@ def try_out(
         confirmed.append(trials.confirmed(ranked.pop(0), usage))
     ranked = sorted([*confirmed, *ranked], key=lambda one: one.weight)
     is_all = not turns
-    ended = trials.ended or (TrialsEnd.COMPLETE if is_all else TrialsEnd.FLIGHTS)
+    ended = trials.ended or trials.cut or (TrialsEnd.COMPLETE if is_all else TrialsEnd.FLIGHTS)
     lines = len({site for site, _ in tried})
     return Trials(tuple(ranked), tuple(candidates), lines, trials.flights, ended)
 
@@ -315,23 +319,24 @@ class _Trials:
         self.missions, self._fly, self.bounds = missions, fly, bounds
         self.flights = 0
         self.ended: TrialsEnd | None = None
+        self.cut: TrialsEnd | None = None  # where time was over for a part of the trials
         self._begun = time.monotonic()
         self._slowest: float | None = None
 
-    def may_go_on(self, reserve: int = 0) -> bool:
-        """Whether one more flight is allowed, with `reserve` flights left for others."""
+    def may_go_on(self, reserve: int = 0, share: float = 1.0) -> bool:
+        """Whether one more flight is allowed, with `reserve` flights left for others, within a share of the time."""
         if self.ended is None:
             if self.bounds.is_cancelled():
                 self.ended = TrialsEnd.CANCELLED
             elif self.flights + reserve >= self.bounds.flights:
                 self.ended = TrialsEnd.FLIGHTS
-            elif time.monotonic() - self._begun >= self.bounds.seconds:
-                self.ended = TrialsEnd.SECONDS
+            elif time.monotonic() - self._begun >= share * self.bounds.seconds:
+                self.ended = self.cut = TrialsEnd.SECONDS
         return self.ended is None
 
     def resume(self) -> None:
-        """Let flights that were kept for others be made."""
-        if self.ended is TrialsEnd.FLIGHTS:
+        """Let flights that were kept for others be made, in the time that is left."""
+        if self.ended in (TrialsEnd.FLIGHTS, TrialsEnd.SECONDS):
             self.ended = None
 
     def fly(self, edit: SmallEdit, mission: MissionResult) -> MissionResult:
