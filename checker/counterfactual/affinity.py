@@ -60,6 +60,13 @@ class Affinity:
         there = {stem for word in (*self._words(site), site.rule.rpartition(".")[2]) for stem in _stems(word)}
         return any(_is_kin(one, other) for one in _stems(name) for other in there)
 
+    def kindred(self, edit: SmallEdit, site: EditSite) -> int:
+        """1 where a new name has a stem in common with a constant beside it, less 1 where the old one has."""
+        first, last = edit.begin - site.begin, edit.end - site.begin
+        beside = [name for name in WORD.findall(site.text[:first] + " " + site.text[last:]) if name in self._named]
+        names = ((1, edit.new), (-1, edit.old))
+        return sum(way * _has_kin(name, beside) for way, name in names if name not in self._named)
+
     def shared(self, name: str, head: EditSite, sites: Sequence[EditSite]) -> int:
         """How many stems of a constant the lines of a rule have; those of three constants and more say nothing."""
         counts = Counter(stem for site in sites if site.is_number for stem in _stems(site.named))
@@ -106,6 +113,15 @@ class Affinity:
         words = set(WORD.findall(site.text)) - _COMMON
         tokens = {found for word in words if (found := self._tokens.get((site.file, site.scope, word)))}
         return {word for word in words if word not in self._named} | tokens
+
+
+def is_kin(one: str, other: str) -> bool:
+    """Whether two names have a stem in common."""
+    return _has_kin(one, [other])
+
+
+def _has_kin(name: str, others: Sequence[str]) -> bool:
+    return any(_is_kin(one, stem) for one in _stems(name) for other in others for stem in _stems(other))
 
 
 def _after(edit: SmallEdit, site: EditSite) -> str:

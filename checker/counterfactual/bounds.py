@@ -4,7 +4,7 @@
 """
 
 import re
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Container, Sequence
 
 from checker.counterfactual.demands import Demands
@@ -15,6 +15,7 @@ _WORD = re.compile(r"[A-Za-z_]\w*")
 _COMPARED = re.compile(r"([^<>=!&|?]+)(<=|<|>=|>)([^<>=!&|?]+);", re.DOTALL)
 _RESERVOIR = re.compile(r"\bnew\s+Reservoir\s*\(")
 _LEAST, _MOST = 1, 2  # of the arguments of a reservoir
+_NUMBERS = re.compile(r"\bnew\s+(?!Reservoir\b)(\w+)\s*\(\s*(-?[\d.]+)\s*,\s*(-?[\d.]+)")
 _LEVELS = re.compile(r"\bnew\s+Reservoir\s*\(\s*(-?[\d.]+)\s*,\s*(-?[\d.]+)\s*,\s*(-?[\d.]+)\s*\)")
 
 
@@ -30,8 +31,22 @@ class Directions:
             for name in _WORD.finditer(site.text):
                 if name.group() in constants and name.group() != site.named:
                     found[name.group()].add(_direction(site.text, name.start()))
+        self._made: dict[str, Counter[bool]] = defaultdict(Counter)  # objects of a class, by the order of two numbers
+        for made in (one for site in sites for one in [_made(site.text)] if one is not None):
+            self._made[made[0]][made[1]] += 1
         self._demands = Demands(sites if is_late else (), constants)
         self._of = {name: ways.pop() for name, ways in found.items() if len(ways) == 1}
+
+    def is_put_in_order(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether the first two numbers that an object is made of are then in order.
+
+        As all other objects of its class have them, or the level of a reservoir between the least and the most.
+        """
+        before, after = (_made(text) for text in (site.text, _after(edit, site)))
+        if before is None or after is None or before[1] is after[1]:
+            return _is_in_order(_after(edit, site)) and not _is_in_order(site.text)
+        counts = self._made[before[0]]
+        return counts[before[1]] == 1 and counts[after[1]] > 0
 
     def of(self, edit: SmallEdit, site: EditSite) -> int:
         """1 where a larger number demands less, -1 where a smaller one does, 0 where that is not known."""
@@ -50,10 +65,22 @@ def sets_value(demand: str) -> bool:
     return "==" in demand or (row is not None and (row.result is not None or row.name == "eq"))
 
 
-def is_put_in_order(edit: SmallEdit, site: EditSite) -> bool:
-    """Whether only after an edit the level of a reservoir at first is between the least and the most."""
+def is_result_moved(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether two arguments of a constraint change places, of which one may be its result."""
+    name, is_call, _ = site.text.partition("(")
+    row = CONSTRAINTS.get(name.strip())
+    return bool(is_call) and row is not None and row.result is not None and edit.begin > site.begin
+
+
+def _after(edit: SmallEdit, site: EditSite) -> str:
     first, last = edit.begin - site.begin, edit.end - site.begin
-    return not _is_in_order(site.text) and _is_in_order(site.text[:first] + edit.new + site.text[last:])
+    return site.text[:first] + edit.new + site.text[last:]
+
+
+def _made(text: str) -> tuple[str, bool] | None:
+    """The class of an object that a line makes of two numbers and more, and whether the first is the smaller."""
+    found = _NUMBERS.search(text)
+    return (found.group(1), float(found.group(2)) < float(found.group(3))) if found is not None else None
 
 
 def _is_in_order(text: str) -> bool:

@@ -28,6 +28,8 @@ _PASSED = 0.4  # length of the way through a line that only passes a value on
 _LEVEL = 0.5  # of what changes the level of a resource that rules something out
 _OUTSIDE = 3.0  # added where other lines contradict each other, whatever happens
 _TROUBLES = (EventKind.RELAX, EventKind.REJECT, EventKind.REFUSE, EventKind.KILL)
+_TELLING, _MOST_TOLD = 3.0, 0.6  # what a conflict tells of its lines together, and of one
+_ANSWERS, _TIME = (EventKind.REJECT, EventKind.REFUSE), "start"
 _UNSEEN = 4.0  # added for lines of a rule that nothing fired
 
 
@@ -45,13 +47,15 @@ class Suspicion(StrEnum):
 class Candidate:
     """A site that is worth a trial: `far` from what ended the mission, by lines that hang together.
 
-    It is so much nearer for trials as lines on the way only pass a value on.
+    It is so much nearer for trials as lines on the way only pass a value on. A line of the conflict is tried so much
+    sooner as it is `told` by it: a conflict of few lines tells more of each.
     """
 
     site: EditSite
     far: float
     source: Suspicion
     nearer: float = 0.0
+    told: float = 0.0
 
 
 def candidates_of(
@@ -88,6 +92,13 @@ def candidates_of(
         for number in graph.setting(token, variable):
             if number not in roots or roots[number][0] > _OBSERVED:
                 roots[number] = (_OBSERVED, Suspicion.CONFLICT)
+    asked = _asked(failed.conflict) | _asked(first.conflict if first is not None else None)
+    answers = [*refusals(outcome), *((first,) if first is not None and first.kind in _ANSWERS else ())]
+    asked |= {(event.predicate, _TIME) for event in answers}
+    for token, variable in sorted(asked):
+        for number in graph.asking(token, variable):
+            if number not in roots or roots[number][0] > _OBSERVED:
+                roots[number] = (_OBSERVED, Suspicion.CONFLICT)
     for predicate in sorted(_tokens_in(outcome, failed, first)):
         for number in graph.of_resource(predicate):
             if number not in roots or roots[number][0] > _LEVEL:
@@ -116,6 +127,8 @@ def candidates_of(
         near = [number for number, (far, _) in roots.items() if far <= _LOG]
         seen |= {name.rpartition(".")[2] for name in graph.tokens_at(near)}
     inside = {number for place in at_odds for number in graph.at(str(real_path(root / place.file)), place.line)}
+    spoken = [one.place for one in (failed.conflict.elements if failed.conflict is not None else ()) if one.place]
+    told = {number for place in spoken for number in graph.at(str(real_path(root / place.file)), place.line)}
     found = []
     for number, site in enumerate(graph.sites):
         if number not in distances:
@@ -124,7 +137,9 @@ def candidates_of(
         is_unseen = bool(site.rule) and site.rule.rpartition(".")[2] not in seen
         is_outside = bool(inside) and number not in inside
         added = _UNSEEN * is_unseen + _OUTSIDE * is_outside
-        found.append(Candidate(site, distances[number] + added, source, distances[number] - reached[number]))
+        sooner = min(_TELLING / len(told), _MOST_TOLD) if number in told else 0.0
+        nearer = distances[number] - reached[number]
+        found.append(Candidate(site, distances[number] + added, source, nearer, sooner))
     return sorted(found, key=lambda one: one.far)
 
 
@@ -134,6 +149,17 @@ def _observed(conflict: Conflict | None) -> set[tuple[str, str]]:
         (variable.token.predicate, variable.name)
         for element in (conflict.elements if conflict is not None else ())
         if element.kind is ElementKind.OBSERVATION
+        for variable in element.variables
+        if variable.token is not None
+    }
+
+
+def _asked(conflict: Conflict | None) -> set[tuple[str, str]]:
+    """Predicates, each with a parameter or time that another reactor asked for: a line of its model set it."""
+    return {
+        (variable.token.predicate, variable.name)
+        for element in (conflict.elements if conflict is not None else ())
+        if element.kind is ElementKind.REQUEST and element.place is None
         for variable in element.variables
         if variable.token is not None
     }

@@ -1,8 +1,9 @@
-"""A mission that passed with a change in; out: what it has lost all the same, or no longer does, as a number."""
+"""A mission flown with a change in; out: what happened, what it has lost though it passed, what it no longer does."""
 
 from checker.batch.result import MissionResult
 from checker.coverage import left_out
 from checker.losses import GoalFate
+from runtime.executive.events import single_events
 
 HEAVY = 10.0  # damage of a mission that passes without a goal
 _STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
@@ -20,3 +21,9 @@ def strayed_of(result: MissionResult, failed: MissionResult) -> float:
     if result.outcome is None or failed.outcome is None:
         return 0.0
     return min(_STRAYED * left_out(failed.outcome.behaviour, result.outcome.behaviour), _MOST_STRAYED)
+
+
+def course_of(result: MissionResult) -> tuple[object, ...]:
+    """What happened in a mission, without when it was planned and why."""
+    events = single_events(result.outcome.events) if result.outcome is not None else ()
+    return tuple((one.tick, one.kind, one.reactor, one.timeline, one.predicate, one.arguments) for one in events)

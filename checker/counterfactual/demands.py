@@ -1,8 +1,9 @@
 """The lines of models in; out: which variables make a mission easier where they are smaller, and which where larger.
 
 What takes long is too late sooner than it is too early: a token's duration is better short, unless a line bounds it
-below or another token lies within it. By the lines that set one variable from others this goes back to constants, in
-other rules and reactors too: where `duration == ceil(span)` and `mulEq(span, rate, kbits)`, fewer `kbits` are better.
+below or another token lies within it; where a rule looks for one to lie within, it is better long. By the lines that
+set one variable from others this goes back to constants, in other rules and reactors too: where `duration ==
+ceil(span)` and `mulEq(span, rate, kbits)`, fewer `kbits` are better.
 """
 
 import re
@@ -17,10 +18,11 @@ _SET = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==([^<>=!&|?]+);", re.DOTALL)
 _SUM = re.compile(r"([^<>=!&|?()]*[-+][^<>=!&|?()]*)==\s*([A-Za-z_][\w.]*)\s*;")
 _LIMIT = re.compile(r"([^<>=!&|?]+)(<=|<|>=|>)([^<>=!&|?]+);", re.DOTALL)
 _TERNARY = re.compile(r"\s*(?:mulEq|addEq)\s*\(\s*([\w.]+)\s*,\s*([\w.]+)\s*,\s*([\w.]+)\s*\)\s*;")
-_CHILD = re.compile(r"\s*(\w+)\s*\(\s*([\w.]+)\s+(\w+)\s*\)")
+_CHILD = re.compile(r"\s*(\w+\s+)?(\w+)\s*(?:\[[^\]]*\]\s*)*\(\s*([\w.]+)\s+(\w+)\s*\)")
 _DURATION = "duration"
 _TIMES = (_DURATION, "start", "end")
 _HOLDING = ("contains", "starts_before_end", "contains_start", "contains_end")
+_HELD = ("contained_by", "starts_during", "ends_during")
 _OWN = "object"
 
 
@@ -30,21 +32,26 @@ class Demands:
     def __init__(self, sites: Sequence[EditSite], constants: Container[str]) -> None:
         self._constants = constants
         self._tokens: dict[tuple[str, tuple[int, int], str], str] = {}
-        holding: set[str] = set()
+        holding, held = set[str](), set[str]()
         for site in sites:
             child = _CHILD.match(site.text)
             if child is not None and site.rule:
-                owner, _, predicate = child.group(2).rpartition(".")
+                origin, relation, path, label = child.groups()
+                owner, _, predicate = path.rpartition(".")
                 own = site.rule.rpartition(".")[0]
                 made = f"{own if owner in ('', _OWN) else owner}.{predicate}"
-                self._tokens[site.file, site.scope, child.group(3)] = made
-                if child.group(1) in _HOLDING:
+                self._tokens[site.file, site.scope, label] = made
+                if relation in _HOLDING and origin is None:
                     holding.add(site.rule)
+                if relation in _HELD:
+                    held.add(made)
         self._wanted: dict[_Name, set[int]] = defaultdict(set)
         for site in sites:
             for name, way in self._limits(site):
                 self._wanted[name].add(way)
-        for rule in {site.rule for site in sites if site.rule} - holding:
+        for rule in held:
+            self._wanted[rule, _DURATION].add(1)
+        for rule in {site.rule for site in sites if site.rule} - holding - held:
             if 1 not in self._wanted[rule, _DURATION]:
                 self._wanted[rule, _DURATION].add(-1)
         self._given = {self._name(site, found.group(1)) for site in sites if (found := _SET.fullmatch(site.text))}

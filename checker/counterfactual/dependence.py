@@ -132,6 +132,13 @@ class Dependence:
         key = ("token", predicate, _TIMES if variable in (_DURATION, "end") else variable)
         yield from sorted(one for one in self._users.get(key, ()) if self.sites[one].rule == predicate)
 
+    def asking(self, predicate: str, variable: str = _TIMES) -> Iterator[int]:
+        """The sites by which other rules bound a parameter, or the times, of the tokens of a predicate."""
+        name = _TIMES if variable in (_DURATION, "start", "end") else variable
+        for key in [key for key in self._users if key[0] == "token" and key[2] == name]:
+            if predicate in (key[1], str(key[1]).rpartition(".")[2]):
+                yield from sorted(one for one in self._users[key] if self.sites[one].rule not in ("", key[1]))
+
     def tokens_at(self, sites: Iterable[int]) -> set[str]:
         """The predicates of the tokens whose times lines speak of."""
         return {str(key[1]) for one in sites for key in self._keys[one] if key[0] == "token" and key[2] == _TIMES}

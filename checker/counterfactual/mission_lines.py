@@ -61,7 +61,7 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
             is_spoken = any(site.holds(site.file, place.line) for place in asked)
             if table == "goal" and not is_spoken:  # later where others were asked for it in time, or at any time
                 is_spoken = number in behind
-                site = replace(site, edits=site.edits[-1:] if is_spoken else site.edits[:1])
+                site = replace(site, edits=site.edits[-1:] if is_spoken else site.edits[:-1] or site.edits)
             source = Suspicion.CONFLICT if is_spoken or table == "property" else Suspicion.TRACE
             found.append(Candidate(site, _SPOKEN if is_spoken else far, source))
     return sorted(found, key=lambda one: one.far)

@@ -5,16 +5,18 @@ kind, the more usual what it writes is (in models, and in this one), and the les
 """
 
 import math
+import re
 from collections import Counter
 from collections.abc import Container, Sequence
 from dataclasses import dataclass
 
-from checker.counterfactual.affinity import WORD, Affinity
-from checker.counterfactual.bounds import Directions, is_put_in_order, sets_value
+from checker.counterfactual.affinity import WORD, Affinity, is_kin
+from checker.counterfactual.bounds import Directions, is_result_moved, sets_value
 from checker.counterfactual.mentions import Mentions, is_doubled
 from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, sign_of, sort_of, sum_of
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit, inverse_of
 
+_LABEL = re.compile(r"\s+(\w+)\s*\)")
 _LOOSE = "any"  # the relation that demands nothing
 _UNEQUAL, _EQUAL = "!=", "=="
 _WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
@@ -42,11 +44,15 @@ _EDGE = 2.0  # odds that few missions fail for a number, not for what is wrong i
 
 _MENTION, _ALIKE, _DOUBLED = 2.0, 1.5, 0.7  # odds that what lacks a mention is meant, or the same name on both sides
 _WISHED = 5.5  # of another wish: it is the user's
+_KINDRED = 0.8  # of a name beside a constant that bears it: `bed * BED_SPACING`
+_CALLED = 2.0  # of a predicate whose name a token bears: `Wind.Calm calm`
+_PRESENT, _MOST_PRESENT = 0.2, 3  # for each line that speaks of a predicate, and how many count
+_QUOTIENT = 3.0  # of a quotient the other way round: its unit would be another
 _RESULT = 2.2  # of a result that changes places: other numbers by far come of it, and any limit is kept or none
 _PROMISED = 4.5  # of another property: what it promises less always keeps
 _AGREES = 1.5  # odds that both sides of `==` are of one type
 _VALUE = 1.7  # of another value: few lines have one, so their number says little
-_TURNED = 1.5  # odds of a relation of two named tokens that says the same with the tokens swapped
+_TURNED = 2.5  # odds of a relation of two named tokens that says the same with the tokens swapped
 _CASE = 1.0  # odds that no two conditions of a rule ask for the same value
 _LAST_CASE = 2.0  # odds that no value of an enumeration is for nothing, where all others have their use
 _UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
@@ -86,6 +92,13 @@ class Usage:
         """Whether nothing uses a variable that somebody declared: another may have taken its place."""
         return name in self.named and not self.counts[name]
 
+    def presence(self, edit: SmallEdit, site: EditSite) -> float:
+        """How much likelier a predicate is meant that other lines speak of, or that its token is called by."""
+        called = _LABEL.match(site.text, edit.end - site.begin)
+        label = called.group(1) if called is not None else ""
+        bears = is_kin(label, edit.new) - is_kin(label, edit.old)
+        return _PRESENT * min(self.counts[edit.new], _MOST_PRESENT) + _CALLED * bears
+
     def gain(self, edit: SmallEdit, site: EditSite) -> float:
         """How much better the new constant of a line belongs there than the old one."""
         return self.affinity.of(edit.new, site) - self.affinity.of(edit.old, site)
@@ -118,6 +131,7 @@ class Usage:
         weight = _MENTION if edit.kind is EditKind.NAME else 0.5 * _MENTION
         gain = weight * self.mentions.gain(edit, site)
         gain += _AGREES * ((edit.begin, edit.new) in site.agreeing)
+        gain += _KINDRED * self.affinity.kindred(edit, site)
         return gain + _ALIKE * self.mentions.likeness(edit, site) + _DOUBLED * is_doubled(edit, site)
 
     def odds(self, edit: SmallEdit, site: EditSite) -> float:
@@ -172,6 +186,12 @@ def is_doubling(edit: SmallEdit) -> bool:
     return edit.kind is EditKind.CONSTANT and float(edit.new) in (2.0 * float(edit.old), 0.5 * float(edit.old))
 
 
+def is_order_turned(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether a relation of two named tokens says the same with the tokens swapped."""
+    is_between = edit.kind is EditKind.RELATION and edit.begin > site.begin
+    return is_between and edit.new == inverse_of(edit.old) != edit.old
+
+
 def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     """How unlikely an edit is the repair; what takes a demand away altogether costs most."""
     form = _DROP if is_loosening(edit, site) else _form(edit, site, usage) + _structural(edit, usage)
@@ -197,19 +217,23 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             far = 0.0 if site.named and float(edit.old) == 0.0 else _octaves(edit)  # who names a number has one
             nothing = _NOTHING * (bool(site.named) and float(edit.old) == 0.0)
             return 1.0 - nothing + _OCTAVE * far + _DIGIT * (_digits(edit.new) - _digits(edit.old))
-        case EditKind.ARGUMENTS if is_put_in_order(edit, site):
+        case EditKind.ARGUMENTS if usage.directions.is_put_in_order(edit, site):
             return 0.0
         case EditKind.PROMISE:
             return _PROMISED
         case EditKind.MISSION if edit.old == "0":
             return 0.0  # a reactor that is asked for nothing
-        case EditKind.ARGUMENTS if sets_value(site.text) and not site.text.startswith("eq"):
+        case EditKind.ARGUMENTS if is_result_moved(edit, site):
             return _RESULT
         case EditKind.GOAL:
             return _WISHED
         case EditKind.PREDICATE if edit.old in EVENTS:
             return 3.0 - _FLOW * (not usage.counts[edit.new])
-        case EditKind.OPERATOR | EditKind.PREDICATE | EditKind.MISSION:
+        case EditKind.PREDICATE:
+            return 3.0 - usage.presence(edit, site)
+        case EditKind.ARGUMENTS if "/" in edit.old:
+            return 1.0 + _QUOTIENT
+        case EditKind.OPERATOR | EditKind.MISSION:
             return 3.0
         case EditKind.VALUE:
             is_case = edit.old not in TRUTHS and not site.text.endswith(";")
@@ -248,10 +272,10 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return 0.0  # few write a number below zero
         case EditKind.SIGN:
             return 0.5 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
-        case EditKind.ARGUMENTS if is_put_in_order(edit, site):
-            return _KIN_SOON
+        case EditKind.ARGUMENTS if usage.directions.is_put_in_order(edit, site):
+            return -1.0  # seen without any flight
         case EditKind.ARGUMENTS:
-            return _SWAPPED + _LATER * usage.passing
+            return _SWAPPED + _LATER * usage.passing + 0.5 * ("/" in edit.old)
         case EditKind.OPERATOR:
             return 0.5 + _LATER * usage.passing
         case EditKind.NAME:
@@ -264,8 +288,10 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return -0.4 + _LATER * usage.passing + _UNUSUAL * math.log(alike)  # one of many is meant less often each
         case EditKind.PREDICATE if edit.old in EVENTS:
             return _SIDE
-        case EditKind.POINT | EditKind.TOKEN | EditKind.PREDICATE:
+        case EditKind.POINT | EditKind.TOKEN:
             return 0.5 - 0.5 * usage.fitness(edit, site) + _LATER * usage.passing
+        case EditKind.PREDICATE:
+            return 0.5 - usage.presence(edit, site) + _LATER * usage.passing
         case EditKind.DROPPED_CONSTRAINT:
             return _LATE if sets_value(edit.old) else 0.3
         case EditKind.DROPPED_BRANCH:
@@ -351,3 +377,9 @@ def _octaves(edit: SmallEdit) -> float:
 def _digits(number: str) -> int:
     """Significant digits: people choose round numbers."""
     return len(number.lstrip("-").replace(".", "").strip("0")) if "." in number else len(number.lstrip("-").rstrip("0"))
+
+
+def is_probe(edit: SmallEdit) -> bool:
+    """Whether an edit leaves out a limit or a relation: a value that is not set would fail all the same."""
+    is_limit = edit.kind is EditKind.DROPPED_CONSTRAINT and not sets_value(edit.old)
+    return is_limit or (edit.kind is EditKind.RELATION and edit.new == "any")

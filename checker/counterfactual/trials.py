@@ -13,9 +13,8 @@ from enum import StrEnum
 from checker.batch.interruption import InterruptedSearch
 from checker.batch.result import MissionResult
 from checker.causes import failed_by
-from checker.counterfactual.bounds import sets_value
 from checker.counterfactual.candidates import Candidate, Suspicion
-from checker.counterfactual.damage import HEAVY, damage_of, strayed_of
+from checker.counterfactual.damage import HEAVY, course_of, damage_of, strayed_of
 from checker.counterfactual.smallness import (
     Usage,
     alternatives,
@@ -24,11 +23,12 @@ from checker.counterfactual.smallness import (
     follow_ups,
     is_doubling,
     is_loosening,
+    is_order_turned,
+    is_probe,
 )
 from checker.counterfactual.turns import Turns
 from checker.mutation.edits import EditKind, EditSite, SmallEdit
 from checker.oracle import Verdict
-from runtime.executive.events import single_events
 
 MOST_FLIGHTS = 40
 MOST_SECONDS = 60.0
@@ -41,12 +41,14 @@ _NAMESAKE = 0.2  # how much later a name is tried at each further line of a rule
 _CONFIRMED = 3  # causes that are tried on other missions too
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
 _UNTRIED = 0.3  # odds that a change helps in other missions, once it was tried in some
-_NEAR = 0.25  # distance of what a conflict speaks of
+_NEAR, _SEARCHED = 0.25, 0.5  # distance of what a conflict speaks of, and of what ruled out a choice of a search
 _PROBE = -0.1  # when such a line is left out: where that helps, it is at fault or what it compares is
+_TURNED = 0.0  # and when the order of two of its tokens is turned round
 _OTHER_WAY = 0.3  # when the number where it breaks is doubled or halved, whichever looks worse
 _CONSTANT = 1.0  # how much nearer a constant counts: it stands for its number in the line that reads it
 _SLOW = 8.0  # times the slowest flight before that passed or failed: a change may leave a search without an end
 _LEAST_SECONDS = 3.0  # that a flight may take
+_MODELS = 0.75  # of the time for changes of models, where the mission file is to be tried too
 _SHARE = 0.25  # of the time that is left, for one flight
 _FOLLOWED = 0.35  # how much likelier a change of a line is once another change of that line has helped
 
@@ -178,22 +180,27 @@ def try_out(
     named: Counter[tuple[str, tuple[int, int], str]] = Counter()
     for candidate in (*last, *candidates):
         earlier: Counter[int] = Counter()
+        is_spoken = _is_spoken(candidate)
         far = max(candidate.far - candidate.nearer - _CONSTANT * candidate.site.is_number, 0.0)
         for delay, edit in _first_edits(candidate.site, usage):
-            if _is_probe(edit) and _is_spoken(candidate):
+            if is_probe(edit) and is_spoken:
                 delay = min(delay, _PROBE)
             if is_doubling(edit) and _is_culprit(candidate):
                 delay = min(delay, _OTHER_WAY)
-            at = (_REACH if candidate.site.is_number else _NEARNESS) * far + delay
-            if edit.kind is not EditKind.VALUE:  # of which there are few
-                at += _TURN * earlier[edit.begin] + _PLACE * len(earlier)
+            at = (_REACH if candidate.site.is_number else _NEARNESS) * far + delay - candidate.told
+            if is_spoken and is_order_turned(edit, candidate.site):
+                at = min(at, _TURNED)
+            else:
+                at += _TURN * earlier[edit.begin] + _PLACE * len(earlier) * (edit.kind is not EditKind.VALUE)
                 earlier[edit.begin] += 1
-            if edit.kind is EditKind.NAME:  # what lacks a mention lacks it at one line
+            if (
+                edit.kind is EditKind.NAME and usage.affinity.kindred(edit, candidate.site) <= 0
+            ):  # what lacks a mention lacks it at one line
                 at += _NAMESAKE * named[candidate.site.file, candidate.site.scope, edit.new]
                 named[candidate.site.file, candidate.site.scope, edit.new] += 1
             turns.add(at, candidate, edit)
-    reserve = min(_CONFIRMED * (len(failed) - 1 + len(missions.passed)), bounds.flights // 4)
-    course = _course(failed[0])
+    others = len(failed) - 1 + len(missions.passed)
+    course = course_of(failed[0])
     is_told = failed_by(failed[0].outcome).deadlock is None  # what rules out a plan may do so before a line counts
     best: dict[EditSite, LineTrial] = {}
     helping: dict[EditSite, list[LineTrial]] = defaultdict(list)
@@ -201,7 +208,10 @@ def try_out(
     outside = [(candidate, edit) for candidate in last for edit in candidate.site.edits]
     outside = [one for one in outside if delay_of(one[1], one[0].site, usage) is None][:_MOST_OUTSIDE]
     spoken = sum(candidate.source is Suspicion.CONFLICT for candidate, _ in outside)
-    while turns and trials.may_go_on(reserve + (spoken if _small(best) else len(outside))):
+    share = _MODELS if outside else 1.0
+    while turns and trials.may_go_on(
+        _reserve(best, others, bounds) + (spoken if _small(best) else len(outside)), share
+    ):
         at, candidate, edit = turns.pop()
         site = candidate.site
         cost = cost_of(edit, site, usage)
@@ -214,8 +224,8 @@ def try_out(
         if result.verdict is not Verdict.PASS:
             if trials.is_lost:
                 turns.avoid(edit)
-            if trials.is_lost or (is_told and _course(result) == course):
-                turns.doubt(site, edit.begin)
+            if trials.is_lost or (is_told and course_of(result) == course):
+                turns.doubt(site, None if is_probe(edit) else edit.begin)
             continue
         trial = trials.read(candidate, edit, cost, result)
         if trial.damage < HEAVY:
@@ -229,7 +239,7 @@ def try_out(
     small = _small(best)
     for candidate, edit in outside:
         is_wanted = candidate.source is Suspicion.CONFLICT or small < (_TOLD if edit.kind is EditKind.GOAL else 1)
-        if is_wanted and trials.may_go_on(reserve):
+        if is_wanted and trials.may_go_on(_reserve(best, others, bounds)):
             tried.add((candidate.site, edit))
             result = trials.fly(edit, failed[0])
             if result.verdict is Verdict.PASS:
@@ -244,9 +254,14 @@ def try_out(
         trial = ranked.pop(0)
         confirmed.append(trials.confirmed(trial, helping[trial.candidate.site], usage))
     ranked = sorted([*confirmed, *ranked], key=lambda one: one.weight)
-    ended = trials.ended or (TrialsEnd.FLIGHTS if turns else TrialsEnd.COMPLETE)
+    ended = trials.ended or trials.cut or (TrialsEnd.FLIGHTS if turns else TrialsEnd.COMPLETE)
     lines = len({site for site, _ in tried})
     return Trials(tuple(ranked), tuple(candidates), lines, trials.flights, ended)
+
+
+def _reserve(best: Mapping[EditSite, LineTrial], others: int, bounds: Bounds) -> int:
+    """Flights that are kept for the other missions: for each cause that is known, and for one more."""
+    return min(min(len(best) + 1, _CONFIRMED) * others, bounds.flights // 4)
 
 
 def _is_culprit(candidate: Candidate) -> bool:
@@ -255,14 +270,9 @@ def _is_culprit(candidate: Candidate) -> bool:
 
 
 def _is_spoken(candidate: Candidate) -> bool:
-    """Whether the conflict that ended the mission speaks of a line."""
-    return candidate.source is Suspicion.CONFLICT and candidate.far <= _NEAR
-
-
-def _is_probe(edit: SmallEdit) -> bool:
-    """Whether an edit leaves out a limit or a relation: a value that is not set would fail all the same."""
-    is_limit = edit.kind is EditKind.DROPPED_CONSTRAINT and not sets_value(edit.old)
-    return is_limit or (edit.kind is EditKind.RELATION and edit.new == "any")
+    """Whether the conflict that ended the mission speaks of a line, or what a search tried in vain."""
+    is_searched = candidate.source is Suspicion.SEARCH and candidate.far <= _SEARCHED
+    return is_searched or (candidate.source is Suspicion.CONFLICT and candidate.far <= _NEAR)
 
 
 def _is_gain(edit: SmallEdit, site: EditSite, known: LineTrial) -> bool:
@@ -282,12 +292,6 @@ def _first_edits(site: EditSite, usage: Usage) -> list[tuple[float, SmallEdit]]:
     return [(delay, edit) for delay, _, edit in wanted]
 
 
-def _course(result: MissionResult) -> tuple[object, ...]:
-    """What happened in a mission, without when it was planned and why."""
-    events = single_events(result.outcome.events) if result.outcome is not None else ()
-    return tuple((one.tick, one.kind, one.reactor, one.timeline, one.predicate, one.arguments) for one in events)
-
-
 class _Trials:
     """Flies trials as long as the bounds allow it."""
 
@@ -296,23 +300,24 @@ class _Trials:
         self.flights = 0
         self.is_lost = False  # whether the last flight was given up
         self.ended: TrialsEnd | None = None
+        self.cut: TrialsEnd | None = None  # where time was over for a part of the trials
         self._begun = time.monotonic()
         self._slowest: float | None = None
 
-    def may_go_on(self, reserve: int = 0) -> bool:
-        """Whether one more flight is allowed, with `reserve` flights left for others."""
+    def may_go_on(self, reserve: int = 0, share: float = 1.0) -> bool:
+        """Whether one more flight is allowed, with `reserve` flights left for others, within a share of the time."""
         if self.ended is None:
             if self.bounds.is_cancelled():
                 self.ended = TrialsEnd.CANCELLED
             elif self.flights + reserve >= self.bounds.flights:
                 self.ended = TrialsEnd.FLIGHTS
-            elif time.monotonic() - self._begun >= self.bounds.seconds:
-                self.ended = TrialsEnd.SECONDS
+            elif time.monotonic() - self._begun >= share * self.bounds.seconds:
+                self.ended = self.cut = TrialsEnd.SECONDS
         return self.ended is None
 
     def resume(self) -> None:
-        """Let flights that were kept for others be made."""
-        if self.ended is TrialsEnd.FLIGHTS:
+        """Let flights that were kept for others be made, in the time that is left."""
+        if self.ended in (TrialsEnd.FLIGHTS, TrialsEnd.SECONDS):
             self.ended = None
 
     def fly(self, edit: SmallEdit, mission: MissionResult) -> MissionResult:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection
 from itertools import count
 
 from checker.counterfactual.candidates import Candidate
-from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.edits import EditKind, EditSite, SmallEdit, inverse_of
 
 _BESIDE = 0.5  # how much of the wait is left for an edit of a line beside one that has helped
 _IDLE = 0.8  # how much later the edits of a line are tried that has no part in the failure
@@ -27,7 +27,7 @@ class Turns:
         self._queue: list[_Entry] = []
         self._order = count()
         self._favoured: set[EditSite] = set()
-        self._doubted: set[tuple[EditSite, int]] = set()
+        self._doubted: set[tuple[EditSite, int | None]] = set()
 
     def __bool__(self) -> bool:
         return bool(self._queue)
@@ -51,11 +51,14 @@ class Turns:
         ]
         heapq.heapify(self._queue)
 
-    def doubt(self, site: EditSite, place: int) -> None:
-        """Try what else may stand at a place of a line later."""
-        if (site, place) not in self._doubted:
+    def doubt(self, site: EditSite, place: int | None) -> None:
+        """Try what else may stand at a place of a line later; at any of its places where none is given.
+
+        But for a relation the other way round: a planner that is free may choose as it had to.
+        """
+        if (site, place) not in self._doubted and (site, None) not in self._doubted:
             self._doubted.add((site, place))
-            self._delay(_IDLE, lambda candidate, edit: candidate.site is site and edit.begin == place)
+            self._delay(_IDLE, lambda candidate, edit: candidate.site is site and _is_doubtful(edit, place))
 
     def avoid(self, lost: SmallEdit) -> None:
         """Try what else writes a word later that left a flight without an end: it costs as much as many others."""
@@ -67,3 +70,7 @@ class Turns:
             for at, number, candidate, edit in self._queue
         ]
         heapq.heapify(self._queue)
+
+
+def _is_doubtful(edit: SmallEdit, place: int | None) -> bool:
+    return place in (None, edit.begin) and not (edit.kind is EditKind.RELATION and edit.new == inverse_of(edit.old))

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
+from checker.mutation.exchanges import exchangeable, exchanged, misplaced
 from checker.mutation.names import other_names, other_points, other_tokens, other_values, tautologies
 from checker.mutation.scope import LineScope, Scopes
-from nddl_lang.semantics.constraints import CONSTRAINTS, ConstraintRow
+from nddl_lang.semantics.constraints import CONSTRAINTS
 from nddl_lang.semantics.relations import RELATIONS
 from nddl_lang.syntax.includes import LIBRARY, LoadedModules
 from nddl_lang.syntax.nodes import (
@@ -20,7 +21,6 @@ from nddl_lang.syntax.nodes import (
     CallConstraint,
     CallExpr,
     ClassDecl,
-    Expr,
     ExprConstraint,
     FloatLiteral,
     Foreach,
@@ -55,8 +55,6 @@ _OTHER_SIGNS = {
     "!=": ("==",),
 }
 _OTHER_NAMES = {"leq": ("eq", "lt"), "lt": ("leq", "eq"), "eq": ("leq", "neq"), "neq": ("eq",)}
-_COMMUTING = ("addEq", "mulEq", "multEq", "eqSum", "eqProduct", "eqMinimum", "eqMaximum", "maxf", "minf")
-_FEW_ARGUMENTS = 3  # of a constraint whose result may be mistaken for an input
 _OUTSIDE = LineScope()  # of a rule
 
 
@@ -333,6 +331,7 @@ class _Reader:
                     yield EditKind.SIGN, span, "-" if op == "+" else "+"
                 if op in ("+", "*"):
                     yield EditKind.OPERATOR, span, "*" if op == "+" else "+"
+                yield from ((EditKind.ARGUMENTS, *each) for each in misplaced(node))
             case UnaryExpr(op="-", operand=operand, span=span):
                 yield EditKind.SIGN, span, operand.span.text
             case Relation(relation=relation, bounds=()):
@@ -344,13 +343,13 @@ class _Reader:
                 known = CONSTRAINTS.get(name.name)
                 for other_name in _OTHER_NAMES.get(known.name if known is not None else name.name, ()):
                     yield EditKind.COMPARISON, name.span, other_name
-                for first, second in _exchangeable(known, len(arguments)):
-                    yield _exchanged(arguments[first], arguments[second])
-            case CallExpr(arguments=arguments):
-                yield from _swapped(arguments)
+                for first, second in exchangeable(known, len(arguments)):
+                    yield EditKind.ARGUMENTS, *exchanged(arguments[first], arguments[second])
+            case CallExpr(arguments=arguments) if len(arguments) > 1:
+                yield EditKind.ARGUMENTS, *exchanged(*arguments[:2])
             case NewExpr(arguments=arguments):
-                yield from _swapped(arguments)
-                yield from _swapped(arguments[1:])
+                for first in range(min(len(arguments) - 1, 2)):
+                    yield EditKind.ARGUMENTS, *exchanged(*arguments[first : first + 2])
             case _:
                 pass
 
@@ -359,28 +358,6 @@ def inverse_of(relation: str) -> str:
     """The relation that says the same with the tokens swapped; the same one where there is no other."""
     row = RELATIONS.get(relation)
     return row.inverse if row is not None and row.inverse is not None else relation
-
-
-def _swapped(arguments: tuple[Expr, ...]) -> Iterator[tuple[EditKind, Span, str]]:
-    """The first two arguments in the other order."""
-    if len(arguments) > 1:
-        yield _exchanged(arguments[0], arguments[1])
-
-
-def _exchangeable(row: ConstraintRow | None, count: int) -> Iterator[tuple[int, int]]:
-    """Which arguments of a constraint may stand for each other: those of a sum say the same in any order."""
-    result = row.result % count if row is not None and row.result is not None and count else None
-    if row is None or row.name not in _COMMUTING:
-        first = [number for number in range(count) if number != result][:2]
-        yield from [(first[0], first[1])] if len(first) == 2 else []
-    if result is not None and count <= _FEW_ARGUMENTS:
-        yield from ((min(number, result), max(number, result)) for number in range(count) if number != result)
-
-
-def _exchanged(first: Expr, second: Expr) -> tuple[EditKind, Span, str]:
-    """Two arguments, each in the place of the other."""
-    between = first.span.source.text[first.span.finish : second.span.begin]
-    return EditKind.ARGUMENTS, first.span.to(second.span), second.span.text + between + first.span.text
 
 
 def _lines(span: Span) -> tuple[int, int]:

@@ -66,13 +66,17 @@ def _sites(text: MissionText, table: tuple[str, int], values: Mapping[str, objec
 
 
 def _times(mission: Mission, number: int) -> Iterator[EditSite]:
-    """The times of a goal: it may come at any time, or only be later."""
+    """The times of a goal: it may come at any time, as soon as the goal before it, or only be later."""
     goal, text, final = mission.agent.goals[number], mission.text, mission.agent.final_tick
     for key, bounds in zip(_TIMES, (goal.start, goal.end, goal.duration), strict=True):
         path = ("goal", number, key)
         if bounds is not None and path in text.places:
-            others = dict.fromkeys((f"[0, {final}]", f"[{bounds[0]}, {final}]"))
-            yield _site(text, path, EditKind.MISSION, list(others))
+            others = [f"[0, {final}]"]
+            before = [one.start[1] for one in mission.agent.goals if one.start is not None and one.start[1] < bounds[0]]
+            if key == "start" and before:
+                others.append(f"[{max(before)}, {bounds[1]}]")
+            others.append(f"[{bounds[0]}, {final}]")
+            yield _site(text, path, EditKind.MISSION, list(dict.fromkeys(others)))
 
 
 def _promised(text: MissionText, table: tuple[str, int]) -> Iterator[EditSite]:

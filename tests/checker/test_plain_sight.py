@@ -1,0 +1,134 @@
+"""What a careful reader sees in a model without a flight makes a change likelier, and is tried sooner."""
+
+from pathlib import Path
+
+import pytest
+
+from checker.counterfactual.bounds import Directions
+from checker.counterfactual.candidates import Candidate, Suspicion
+from checker.counterfactual.smallness import Usage, cost_of, delay_of, usage_of
+from checker.counterfactual.turns import Turns
+from checker.mission import read_mission
+from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
+from checker.mutation.mission_edits import mission_sites
+from checker.mutation.variant import load_graph
+
+pytestmark = pytest.mark.once
+
+MODEL = """#include "TREX.nddl"
+int CALM = [10 20];
+int BED_SPACING = 4;
+int EACH = 16;
+int HEAD = 2;
+class Window { int opens; int closes; Window(int a, int b) { opens = a; closes = b; } }
+class Wind extends AgentTimeline {
+  predicate Calm { int left; }
+  predicate Gusty { int left; }
+  Wind(Mode m) { super(m, "Calm"); }
+}
+class Cart extends AgentTimeline {
+  predicate Drive { int bed; int plants; int metres; int data; }
+  Cart(Mode m) { super(m, "undefined"); }
+}
+Cart::Drive {
+  starts_during(Wind.Gusty calm);
+  calm.left >= bed - plants;
+  metres == plants * BED_SPACING;
+  data == plants * HEAD + EACH;
+}
+Wind::Calm { duration == CALM; meets(object.Gusty g); }
+Window morning = new Window(10, 20);
+Window noon = new Window(40, 30);
+Window evening = new Window(50, 60);
+"""
+
+
+@pytest.fixture
+def sites(tmp_path: Path) -> list[EditSite]:
+    path = tmp_path / "m.nddl"
+    path.write_text(MODEL)
+    return sites_of(load_graph(path, ()))
+
+
+def change(sites: list[EditSite], text: str, kind: EditKind, new: str) -> tuple[SmallEdit, EditSite]:
+    (site,) = (site for site in sites if site.text == text)
+    return next((edit, site) for edit in site.edits if (edit.kind, edit.new) == (kind, new))
+
+
+def cost(sites: list[EditSite], usage: Usage, text: str, kind: EditKind, new: str) -> float:
+    return cost_of(*change(sites, text, kind, new), usage)
+
+
+def test_operands_change_places_in_a_difference_and_between_a_product_and_what_is_added(sites: list[EditSite]) -> None:
+    def exchanged(text: str) -> set[str]:
+        (site,) = (site for site in sites if site.text == text)
+        return {edit.new for edit in site.edits if edit.kind is EditKind.ARGUMENTS}
+
+    assert exchanged("calm.left >= bed - plants;") == {"plants - bed"}
+    assert exchanged("data == plants * HEAD + EACH;") == {"EACH + HEAD", "EACH * HEAD + plants"}
+    assert exchanged("metres == plants * BED_SPACING;") == set()  # a product says the same in any order
+
+
+def test_a_name_is_likelier_beside_a_constant_that_bears_it(sites: list[EditSite]) -> None:
+    usage = usage_of(sites)
+    line = "metres == plants * BED_SPACING;"
+    (site,) = (site for site in sites if site.text == line)
+    costs = {edit.new: cost_of(edit, site, usage) for edit in site.edits if edit.old == "plants"}
+    assert costs["bed"] < min(costs[other] for other in ("calm.left", "data"))
+
+
+def test_a_predicate_is_likelier_that_its_token_is_called_by(sites: list[EditSite]) -> None:
+    usage = usage_of(sites)
+    line = "starts_during(Wind.Gusty calm);"
+    assert cost(sites, usage, line, EditKind.PREDICATE, "Calm") < 2.0
+    assert cost(sites, usage, "meets(object.Gusty g);", EditKind.PREDICATE, "Calm") > 2.0
+
+
+def test_an_object_that_is_made_the_other_way_round_is_seen_without_a_flight(sites: list[EditSite]) -> None:
+    usage = usage_of(sites)
+    turned = change(sites, "Window noon = new Window(40, 30);", EditKind.ARGUMENTS, "30, 40")
+    usual = change(sites, "Window morning = new Window(10, 20);", EditKind.ARGUMENTS, "20, 10")
+    assert usage.directions.is_put_in_order(*turned) and not usage.directions.is_put_in_order(*usual)
+    assert delay_of(*turned, usage) == -1.0
+
+
+def test_what_others_are_to_lie_within_had_better_be_long(sites: list[EditSite]) -> None:
+    named = {site.named for site in sites if site.named}
+    held = [*sites, *_with_child(sites, "contained_by(Wind.Calm c);")]
+    (calm,) = (site for site in sites if site.named == "EACH")
+    edit = next(edit for edit in calm.edits if edit.kind is EditKind.CONSTANT)
+    limit = EditSite(calm.file, 40, 1, 40, "Wind.Calm", (40, 41), "duration == EACH;", ())
+    assert Directions([*sites, limit], named, is_late=True).of(edit, calm) == -1
+    assert Directions([*held, limit], named, is_late=True).of(edit, calm) == 1
+
+
+def _with_child(sites: list[EditSite], text: str) -> list[EditSite]:
+    return [EditSite(sites[0].file, 50, 1, 50, "Cart.Drive", (50, 51), text, ())]
+
+
+def test_where_a_relation_left_out_changes_nothing_its_line_is_doubted_but_not_its_order() -> None:
+    kinds = ((EditKind.RELATION, 4, "meets"), (EditKind.TOKEN, 11, "c"), (EditKind.RELATION, 4, "after"))
+    edits = tuple(SmallEdit(kind, "a.nddl", begin, begin + 6, "before", new, 1) for kind, begin, new in kinds)
+    line = Candidate(EditSite("a.nddl", 1, 1, 1, "", (1, 1), "a before b;", edits), 0.0, Suspicion.CONFLICT)
+    turns = Turns(lambda _: ())
+    for edit in edits:
+        turns.add(0.0, line, edit)
+    turns.doubt(line.site, None)
+    waits = {edit.new: at for at, _, edit in (turns.pop() for _ in edits)}
+    assert waits["after"] == 0.0 < waits["meets"] == waits["c"]
+
+
+def test_a_goal_may_come_as_soon_as_the_one_before_it(tmp_path: Path) -> None:
+    (tmp_path / "m.nddl").write_text(MODEL.replace("Wind::Calm { duration == CALM;", "Wind::Calm {"))
+    goals = "".join(
+        f'[[goal]]\ntimeline = "wind"\npredicate = "Calm"\nstart = [{low}, {high}]\n'
+        for low, high in ((5, 40), (90, 95))
+    )
+    (tmp_path / "mission.toml").write_text(
+        '[mission]\nname = "wind"\nfinal_tick = 100\n[[reactor]]\nname = "keeper"\nmodel = "m.nddl"\n'
+        f'internal = ["wind"]\nlookahead = 100\n{goals}[check]\nmissions = 1\n'
+    )
+    mission, found = read_mission(tmp_path / "mission.toml")
+    assert mission is not None, found
+    times = [[edit.new for edit in mission_sites(mission)["goal", number][0].edits] for number in (0, 1)]
+    assert times == [["[0, 100]", "[5, 100]"], ["[0, 100]", "[40, 95]", "[90, 100]"]]
