@@ -6,7 +6,7 @@ from scipy import stats
 
 from checker.betting import betting_interval
 from checker.rate import Method, judge_missions
-from checker.sampling.adaptive import Adaptive
+from checker.sampling.adaptive import PRODUCTS, Adaptive
 from checker.sampling.sampler import MissionRole, SamplePoint, Setting, ShareAxis, Trial, axes_of, with_point
 from checker.sensitivity import sensitivity
 from checker.statistics import confidence_sequence, exact_interval, mcnemar
@@ -106,6 +106,20 @@ def test_the_adaptive_sampler_finds_a_fault_of_two_in_a_thousand(world: str) -> 
     assert found >= 48
 
 
+def test_the_adaptive_sampler_finds_a_ball_of_two_in_a_thousand_wherever_it_lies() -> None:
+    """A ball of six parameters cannot lie near an edge; 300 plain random missions find it in 45 % of batches."""
+    axes = tuple(ShareAxis(name, 0.0, 1.0 - 2.0**-53) for name in "ABCDEF")
+    radius = (0.002 / (np.pi**3 / 6.0)) ** (1.0 / 6.0)
+    found = []
+    for seed in range(20):  # while nothing fails, a batch is the same wherever the ball lies
+        rows = shares_of(chosen("adaptive", 300, axes, seed))
+        rows = np.vstack([rows, np.random.default_rng([seed, 7]).random((300 - len(rows), 6))])
+        centres = radius + (1.0 - 2.0 * radius) * np.random.default_rng([seed, 8]).random((20, 6))
+        distances = ((rows[None] - centres[:, None]) ** 2).sum(axis=2)
+        found += list((distances <= radius**2).any(axis=1))
+    assert np.mean(found) > 0.7
+
+
 def test_the_adaptive_sampler_finds_twice_the_failures_and_looks_elsewhere_too() -> None:
     """B2 fails beyond both of two limits: in four corners of 4 % each (trex 4 row 39)."""
     world = WORLDS["four corners"]
@@ -118,6 +132,20 @@ def test_the_adaptive_sampler_finds_twice_the_failures_and_looks_elsewhere_too()
     assert failures >= 2 * world.rate * missions
     assert outside >= 0.25 * missions
     assert np.mean(estimates) == pytest.approx(world.rate, abs=4 * float(np.std(estimates)) / 5)
+
+
+def test_the_densities_that_explore_are_those_of_what_they_draw() -> None:
+    """The mean of 1 / density over what was drawn in a part of the box is the volume of that part."""
+    dice = np.random.default_rng(4)
+    for product in PRODUCTS:
+        rows = product.draw(dice, 40_000, 2)
+        in_part = (
+            ((rows > 0.93) & (rows < 0.99)).all(axis=1) if product.inner < 1.0 else (abs(rows - 0.5) < 0.15).all(1)
+        )
+        weights = np.where(in_part, 1.0 / product.density(rows), 0.0)
+        volume = 0.06**2 if product.inner < 1.0 else 0.3**2
+        assert weights.mean() == pytest.approx(volume, abs=5.0 * float(weights.std()) / 200.0)
+    assert sum(product.share for product in PRODUCTS) == pytest.approx(1.0)
 
 
 def test_weights_are_the_inverse_of_a_density() -> None:
