@@ -15,7 +15,7 @@ import numpy as np
 from checker.sampling.sampler import RANDOM_POINT, MissionRole, SamplePoint, Setting, Trial
 
 _UNIFORM = 0.35  # kept elsewhere
-_EXPLORING = 0.30  # where distress is followed; 0.10 once something has failed
+_SOUGHT = 0.30  # where distress is followed; 0.10 once something has failed
 _GENERATION = 20
 _FINEST, _NEAR = 1e-4, 0.1  # least and greatest distance from an edge
 _ELITE = 0.1  # of the missions that did not fail, those in most distress
@@ -23,39 +23,41 @@ _MOST_KERNELS = 60
 
 
 @dataclass(frozen=True, slots=True)
-class _Product:
-    """Product density: each axis alone lies between `margin` and 1 - `margin` with chance `inner`, else near an end.
+class ProductMixture:
+    """Product densities: each axis alone lies between margin and 1 - margin with chance `inner`, else near an end.
 
-    The distance from the end is log-uniform between `_FINEST` and `_NEAR`.
+    The distance from the end is log-uniform between `_FINEST` and `_NEAR`. One row per product; `share` is that of the
+    missions that explore.
     """
 
-    inner: float
-    margin: float
-    share: float  # of the missions that explore
+    inner: np.ndarray
+    margin: np.ndarray
+    share: np.ndarray
 
     def draw(self, generator: np.random.Generator, count: int, axes: int) -> np.ndarray:
         """Points, one per row."""
+        product = generator.choice(len(self.share), size=count, p=self.share)
+        inner, margin = self.inner[product, None], self.margin[product, None]
         place, side, distance, which = generator.random((4, count, axes))
         distance = _FINEST * (_NEAR / _FINEST) ** distance
         near = np.where(side < 0.5, distance, 1.0 - distance)
-        middle = self.margin + (1.0 - 2.0 * self.margin) * place
-        return np.asarray(np.where(which < self.inner, middle, near))
+        return np.asarray(np.where(which < inner, margin + (1.0 - 2.0 * margin) * place, near))
 
     def density(self, rows: np.ndarray) -> np.ndarray:
         """At each row."""
         distance = np.minimum(rows, 1.0 - rows)
         is_near = (distance >= _FINEST) & (distance <= _NEAR)
         near = np.where(is_near, 0.5 / (np.maximum(distance, _FINEST) * np.log(_NEAR / _FINEST)), 0.0)
-        middle = np.where(distance >= self.margin, 1.0 / (1.0 - 2.0 * self.margin), 0.0)
-        return np.asarray((self.inner * middle + (1.0 - self.inner) * near).prod(axis=1))
+        inner, margin = self.inner[:, None, None], self.margin[:, None, None]
+        middle = np.where(distance >= margin, inner / (1.0 - 2.0 * margin), 0.0)
+        return np.asarray(self.share @ (middle + (1.0 - inner) * near).prod(axis=2))
 
 
-PRODUCTS = (
-    _Product(0.0, 0.0, 0.06),
-    _Product(0.5, 0.0, 0.40),
-    _Product(0.5, 0.15, 0.38),
-    _Product(1.0, 0.2, 0.05),
-    _Product(1.0, 0.3, 0.11),
+# Corners; edges and what lies between them, all of it and the better part; the middle.
+EXPLORING = ProductMixture(
+    inner=np.array([0.0, 0.5, 0.5, 1.0, 1.0]),
+    margin=np.array([0.0, 0.0, 0.15, 0.2, 0.3]),
+    share=np.array([0.06, 0.40, 0.38, 0.05, 0.11]),
 )
 
 
@@ -97,31 +99,21 @@ class Adaptive:
         generator = setting.generator("adaptive", len(trials))
         kernels = _kernels_of(trials, len(setting.axes))
         has_failed = any(trial.failed for trial in trials)
-        exploring = 0.0 if not trials else 0.10 if has_failed else _EXPLORING
+        exploring = 0.0 if not trials else 0.10 if has_failed else _SOUGHT
         local = 0.0 if kernels is None else 1.0 - _UNIFORM - exploring
         if kernels is None and exploring:
             exploring = 1.0 - _UNIFORM
         component = generator.random(count)
         rows = generator.random((count, len(setting.axes)))
-        rows = np.where((component < local + exploring)[:, None], _draw_products(generator, *rows.shape), rows)
+        rows = np.where((component < local + exploring)[:, None], EXPLORING.draw(generator, *rows.shape), rows)
         if kernels is not None:
             rows = np.where((component < local)[:, None], kernels.draw(generator, count), rows)
-        density = 1.0 - local - exploring + exploring * _product_density(rows)
+        density = 1.0 - local - exploring + exploring * EXPLORING.density(rows)
         if kernels is not None:
             density += local * kernels.density(rows)
         return [
             setting.point(row, MissionRole.WEIGHTED, 1.0 / float(at)) for row, at in zip(rows, density, strict=True)
         ]
-
-
-def _draw_products(generator: np.random.Generator, count: int, axes: int) -> np.ndarray:
-    """Rows of the mixture of the products."""
-    which = generator.choice(len(PRODUCTS), size=count, p=[one.share for one in PRODUCTS])
-    return np.array([one.draw(generator, count, axes) for one in PRODUCTS])[which, np.arange(count)]
-
-
-def _product_density(rows: np.ndarray) -> np.ndarray:
-    return np.asarray(np.sum([one.share * one.density(rows) for one in PRODUCTS], axis=0))
 
 
 def _kernels_of(trials: Sequence[Trial], axes: int) -> _Kernels | None:

@@ -82,9 +82,9 @@ def fly(sampler: Sampler, world: World, missions: int, dice: np.random.Generator
     trials: list[Trial] = []
     batch = Batch([], [])
     while len(trials) < missions:
-        for point in sampler.choose(trials, missions - len(trials))[: missions - len(trials)]:
-            shares = np.array([share for _, share in point.shares]) if point.shares else dice.random(len(AXES))
-            failed = bool(world.fails(shares))
+        points = sampler.choose(trials, missions - len(trials))[: missions - len(trials)]
+        rows = np.array([[share for _, share in one.shares] or dice.random(len(AXES)) for one in points])
+        for point, shares, failed in zip(points, rows, world.fails(rows).tolist(), strict=True):
             trials.append(Trial(point, failed, behaviour=frozenset({int(8 * shares[0]), 100 + int(8 * shares[2])})))
             batch.flown.append((failed, point))
             batch.shares.append(shares)
@@ -229,13 +229,13 @@ def _weighted_coverages(name: str, world: World, missions: int, count: int) -> d
     covered, estimates = dict.fromkeys(End, 0), {end: np.zeros(count) for end in End}
     needed = log_stake(CONFIDENCE)
     for number, (batch, sampler) in enumerate(batches(name, world, missions, count)):
-        values = np.array([point.weight if failed else 0.0 for failed, point in batch.flown])
+        values = [point.weight if failed else 0.0 for failed, point in batch.flown]
         is_in = np.maximum(*log_wealth(values, sampler.most_weight, world.rate)) < needed
         for end in End:
             at = _end_of(batch, sampler, end)
             covers_rate = bool(is_in.all() if end is End.ANY else at == 0 or is_in[at - 1])
             covered[end] += covers_rate
-            estimates[end][number] = values[:at].mean() if at else 0.0
+            estimates[end][number] = np.mean(values[:at]) if at else 0.0
             if number < _RULED:
                 flown = batch.flown[:at]
                 rate = judge_missions(flown, LIMIT, CONFIDENCE, most_weight=sampler.most_weight, is_sequential=True)
@@ -288,7 +288,9 @@ def main(count: int, names: Sequence[str]) -> int:
             lowest.append(f"{name:14} refuses an interval")
             continue
         least, where = min(every, key=lambda one: one[0].share)
-        lowest.append(f"{name:14} {100 * least.share:6.2f} % (+- {100 * least.error:.2f}) {least.method.value}: {where}")
+        lowest.append(
+            f"{name:14} {100 * least.share:6.2f} % (+- {100 * least.error:.2f}) {least.method.value}: {where}"
+        )
     print("\nLowest coverage, with its standard error:", *lowest, sep="\n")
     return short
 
