@@ -144,6 +144,17 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
     assert [child.name for child in path.parent.iterdir()] == ["report.txt"]
 
 
+def test_a_link_to_itself_is_replaced_and_a_folder_of_links_in_a_circle_is_no_place(tmp_path: Path) -> None:
+    """`Path.resolve` makes a RuntimeError of such a link, which was told as a bug of nddlc."""
+    link, folder = tmp_path / "report.txt", tmp_path / "folder"
+    link.symlink_to(link)
+    write_whole(link, "text")
+    assert link.read_text() == "text"
+    folder.symlink_to(folder)
+    with pytest.raises(OSError, match=r"exists|links"):
+        write_whole(folder / "report.txt", "text")
+
+
 def test_an_excerpt_is_of_what_was_flown(tmp_path: Path) -> None:
     (tmp_path / "m.nddl").write_text("int x;\nint changed;\n")
     excerpts = Excerpts(tmp_path)
