@@ -10,7 +10,7 @@ import pytest
 
 from checker.campaign import Campaign
 from checker.excerpts import Excerpts
-from checker.findings import Findings
+from checker.findings import Ending, Findings
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.names import relative_name
@@ -122,6 +122,29 @@ def test_junit_has_a_case_per_mission(findings: Findings) -> None:
     assert failure is not None
     assert failure.text is not None
     assert "models/gps/rules.nddl:34: duration <= SURFACE_MAX;" in failure.text
+
+
+@pytest.mark.parametrize("kept", ["none", "errors", "gaps", "failures"])
+def test_every_form_is_well_formed_whatever_came_of_a_batch(campaign: Campaign, findings: Findings, kept: str) -> None:
+    """Ended by a signal before anything was flown, with nothing but errors, with gaps, with nothing but failures."""
+    chosen = {
+        "none": [],
+        "errors": [one for one in findings.results if one.verdict is Verdict.ERROR],
+        "gaps": [one for one in findings.results if one.number not in (12, 13)],
+        "failures": [one for one in findings.results if one.verdict is Verdict.FAIL],
+    }[kept]
+    found = campaign.assess(tuple(chosen), may_fly=False, ending=Ending.SIGNAL)
+    excerpts = Excerpts(ROOT)
+    suite = ElementTree.fromstring(junit_report(found, excerpts))[0]
+    for name, tag in (("tests", "testcase"), ("failures", "testcase/failure"), ("errors", "testcase/error")):
+        assert suite.get(name) == str(len(suite.findall(tag)))
+    check_sarif(json.loads(sarif_report(found, excerpts)))
+    data = json.loads(json_report(found, excerpts), parse_constant=lambda word: pytest.fail(word))
+    assert (data["verdict"], data["ending"], len(data["missions"])) == ("interrupted", "signal", len(chosen))
+    assert data["rate"]["counted"] == (10 if kept == "gaps" else 0)  # of 1 to 11 without the ERROR
+    assert "interrupted" in text_report(found, excerpts)
+    assert html_report(found, excerpts, campaign.stories(found)).rstrip().endswith("</html>")
+    assert markdown_report(found, excerpts).startswith("#")
 
 
 def test_sarif_points_at_the_line(findings: Findings) -> None:
