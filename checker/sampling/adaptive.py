@@ -23,7 +23,7 @@ _MOST_KERNELS = 60
 
 
 @dataclass(frozen=True, slots=True)
-class ProductMixture:
+class _ProductMixture:
     """Product densities: each axis alone lies between margin and 1 - margin with chance `inner`, else near an end.
 
     The distance from the end is log-uniform between `_FINEST` and `_NEAR`. One row per product; `share` is that of the
@@ -54,7 +54,7 @@ class ProductMixture:
 
 
 # Corners; edges and what lies between them, all of it and the better part; the middle.
-EXPLORING = ProductMixture(
+EXPLORING = _ProductMixture(
     inner=np.array([0.0, 0.5, 0.5, 1.0, 1.0]),
     margin=np.array([0.0, 0.0, 0.15, 0.2, 0.3]),
     share=np.array([0.06, 0.40, 0.38, 0.05, 0.11]),
