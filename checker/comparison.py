@@ -8,12 +8,13 @@ from checker.statistics import DIGITS, Interval, exact_interval, mcnemar
 
 @dataclass(frozen=True, slots=True)
 class Trialled:
-    """A mission of a run: its number, whether it failed, and why."""
+    """A mission of a run: its number, whether it failed, and why; `is_random` where no sampler chose its point."""
 
     number: int
     failed: bool
     code: str
     reason: str
+    is_random: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,15 +33,25 @@ class Flip:
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """Missions that both runs flew with the same seed. `interval` is that of the change of the failure rate."""
+    """Missions that both runs flew with the same seed.
+
+    `change` and `interval` are of the failure rate: they rest on the `counted` missions that no sampler chose, and are
+    None where there are none.
+    """
 
     missions: int
     failed_before: int
     failed_after: int
     flips: tuple[Flip, ...]
     chance: float  # of flips as uneven, if neither run is better
-    change: float
-    interval: Interval
+    counted: int
+    change: float | None
+    interval: Interval | None
+
+    @property
+    def is_worse(self) -> bool:
+        """Whether more missions fail only in the second run than only in the first."""
+        return 2 * sum(one.now_fails for one in self.flips) > len(self.flips)
 
 
 Mission = tuple[int, str]  # seed, and the point as text: what makes two missions the same
@@ -55,15 +66,27 @@ def compare(before: Mapping[Mission, Trialled], after: Mapping[Mission, Trialled
     flips = tuple(Flip(before[key], after[key], key[0]) for key in common if before[key].failed != after[key].failed)
     worse = sum(one.now_fails for one in flips)
     better = len(flips) - worse
-    half = 1.0 - (1.0 - confidence) / 2.0
-    up, down = exact_interval(worse, len(common), half), exact_interval(better, len(common), half)
-    change = (worse - better) / len(common) if common else 0.0
+    counted = sum(before[key].is_random for key in common)
+    change, interval = _change(flips, counted, confidence)
     return Comparison(
         len(common),
         sum(before[key].failed for key in common),
         sum(after[key].failed for key in common),
         flips,
         mcnemar(worse, better),
-        round(change, DIGITS),
-        (round(up[0] - down[1], DIGITS), round(up[1] - down[0], DIGITS)),
+        counted,
+        change,
+        interval,
     )
+
+
+def _change(flips: tuple[Flip, ...], counted: int, confidence: float) -> tuple[float, Interval] | tuple[None, None]:
+    """The change of the failure rate and its interval, from the missions that no sampler chose."""
+    if not counted:
+        return None, None
+    worse = sum(one.now_fails for one in flips if one.before.is_random)
+    better = sum(not one.now_fails for one in flips if one.before.is_random)
+    half = 1.0 - (1.0 - confidence) / 2.0
+    up, down = exact_interval(worse, counted, half), exact_interval(better, counted, half)
+    interval = (round(up[0] - down[1], DIGITS), round(up[1] - down[0], DIGITS))
+    return round((worse - better) / counted, DIGITS), interval

@@ -159,12 +159,14 @@ def assess(
     ordered = tuple(result for result in by_number if result.number > 0)
     check = mission.check
     flown = [one for one in ordered if one.verdict is not Verdict.ERROR]
+    gapless = _gapless(ordered) if ending is Ending.SIGNAL else len(flown)
     rate = judge_missions(
         [(one.verdict is Verdict.FAIL, one.point) for one in flown],
         check.max_failure_rate,
         check.confidence,
         most_weight=sampling.most_weight,
         is_sequential=sampling.is_sequential,
+        gapless=gapless,
     )
     if regressed(cases, check.max_failure_rate):
         rate = replace(rate, exceeds=True, is_certain=True)
@@ -175,7 +177,7 @@ def assess(
         is_wanted = position < MOST_SOUGHT if focus is None else focus in bucket.missions
         members = set(bucket.missions)
         interval, _ = rate_interval(
-            [(one.number in members, one.point) for one in flown],
+            [(one.number in members, one.point) for one in flown[:gapless]],
             check.confidence,
             most_weight=sampling.most_weight,
             is_sequential=sampling.is_sequential,
@@ -188,6 +190,12 @@ def assess(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending,
         sampling, sensitivities(agent, ordered, check.confidence), cases, is_cut,
     )  # fmt: skip
+
+
+def _gapless(results: Sequence[MissionResult]) -> int:
+    """How many missions that are no ERROR come before the first that was not finished."""
+    reached = next((at for at, one in enumerate(results) if one.number != at + 1), len(results))
+    return sum(one.verdict is not Verdict.ERROR for one in results[:reached])
 
 
 def _with_causes(

@@ -14,6 +14,7 @@ from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Judgement, judge, judge_losses
 from checker.pinned import pinned
+from nddl_lang.text.read import real_path
 from nddl_lang.text.values import json_value
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import trace_json
@@ -54,7 +55,7 @@ def trace_text(flight: Flight, mission: Path, trace: Path) -> str:
         "tick": 0,
         "phase": "start",
         "kind": _HEAD,
-        "mission": Path(os.path.relpath(mission.resolve(), trace.resolve().parent)).as_posix(),
+        "mission": Path(os.path.relpath(real_path(mission), real_path(trace).parent)).as_posix(),
         "models": flight.models,
         "seed": flight.settings.seed,
         "values": dict(sorted(flight.settings.values.items())),

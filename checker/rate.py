@@ -43,6 +43,7 @@ class Rate:
     is_certain: bool
     counted: int
     counted_failures: int
+    has_gaps: bool = False  # missions were left in flight: what came after the first of them is not counted
 
 
 def judge_rate(failures: int, missions: int, limit: float, confidence: float) -> Rate:
@@ -58,13 +59,19 @@ def judge_missions(
     *,
     most_weight: float = 1.0,
     is_sequential: bool = False,
+    gapless: int | None = None,
 ) -> Rate:
-    """The rate of missions, each with whether it failed; `is_sequential` if what was seen decided when to stop."""
+    """The rate of missions, each with whether it failed; `is_sequential` if what was seen decided when to stop.
+
+    Only the first `gapless` missions are counted, if given: after a mission that is still in flight those come first
+    that are soon over, and these fail more often than others.
+    """
     failures = sum(failed for failed, _ in flown)
-    counted = [(failed, point) for failed, point in flown if point.role is not MissionRole.DESIGNED] or list(flown)
+    first = flown[:gapless]
+    counted = [(failed, point) for failed, point in first if point.role is not MissionRole.DESIGNED] or list(first)
     hits = sum(failed for failed, _ in counted)
     observed = _estimate(counted)
-    interval, method = rate_interval(flown, confidence, most_weight=most_weight, is_sequential=is_sequential)
+    interval, method = rate_interval(first, confidence, most_weight=most_weight, is_sequential=is_sequential)
     is_proof = limit == 0.0 and failures > 0
     exceeds = observed > limit or is_proof
     if interval is None:
@@ -73,7 +80,7 @@ def judge_missions(
         is_certain = interval[0] > limit or is_proof if exceeds else interval[1] <= limit
     return Rate(
         failures, len(flown), round(observed, DIGITS), confidence, interval, method, limit, exceeds, is_certain,
-        len(counted), hits,
+        len(counted), hits, len(first) < len(flown),
     )  # fmt: skip
 
 

@@ -70,6 +70,8 @@ def read_cases(path: Path) -> tuple[RegressionCase, ...]:
         return ()
     try:
         data = toml_value(path.read_text(encoding="utf-8"))
+    except OSError as problem:
+        raise RegressionError(f"`{path}` cannot be read: {problem.strerror or problem}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
         raise RegressionError(f"`{path}`: {problem}") from None
     cases = data.get("case", [])

@@ -2,7 +2,8 @@
 
 The shares of plain random missions are uniform. The distance is Kolmogorov's between those of failing missions and the
 uniform distribution: 0 where the parameter has no part in it, near 1 where only a narrow range fails. Its interval is
-that of Dvoretzky, Kiefer, Wolfowitz and Massart: exact for every number of failures, whatever the distribution.
+that of Dvoretzky, Kiefer, Wolfowitz and Massart: it holds for every number of failures, whatever the distribution. The
+intervals of all parameters hold together (Bonferroni), so that among many parameters none stands out by chance.
 """
 
 import math
@@ -31,13 +32,16 @@ class Sensitivity:
 def sensitivities(
     agent: AgentConfiguration, results: Sequence[MissionResult], confidence: float
 ) -> tuple[Sensitivity, ...]:
-    """Of each parameter that is drawn once per mission, the greatest distance first; from plain random missions."""
+    """Of each parameter that is drawn once per mission, the greatest distance first; from plain random missions.
+
+    `confidence` is that all intervals cover.
+    """
     seeds = [one.seed for one in results if one.verdict is Verdict.FAIL and one.point.role is MissionRole.RANDOM]
     if len(seeds) < _FEWEST:
         return ()
-    found = [
-        sensitivity(axis.name, [draw(seed, axis.name, 0) for seed in seeds], confidence) for axis in axes_of(agent)
-    ]
+    axes = axes_of(agent)
+    each = 1.0 - (1.0 - confidence) / max(1, len(axes))
+    found = [sensitivity(axis.name, [draw(seed, axis.name, 0) for seed in seeds], each) for axis in axes]
     return tuple(sorted(found, key=lambda one: -one.distance))
 
 

@@ -39,9 +39,8 @@ from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
 from nddl_lang.text.render import as_dict, render
-from nddl_lang.text.write import write_whole
 from nddlc.fitting import say
-from nddlc.inputs import Unusable, chosen_dialect, colours, configured, mission_here, readable
+from nddlc.inputs import Unusable, chosen_dialect, colours, configured, mission_here, readable, write_text
 from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.mission_trust import models_of
@@ -272,13 +271,8 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path, *,
         "sarif": ("report.sarif", sarif_report(findings, excerpts)),
         "markdown": ("report.md", markdown_report(findings, excerpts)),
     }
-    try:
-        for name, text in reports.values():
-            write_whole(output / name, text)
-    except OSError as problem:
-        raise Unusable(
-            f"cannot write the report to `{output}`: {problem.strerror}", "--output names a folder"
-        ) from None
+    for name, text in reports.values():
+        write_text(output / name, text, "--output names a folder")
     if style == "github":
         click.echo(github_report(findings, excerpts), nl=False)
     elif style == "text":

@@ -13,7 +13,7 @@ from checker.oracle import Verdict
 from checker.rendering import failure_text
 from checker.report.sentences import missions, percent
 from checker.sampling.rendering import number
-from checker.sampling.sampler import RANDOM_POINT
+from checker.sampling.sampler import RANDOM_POINT, MissionRole
 from nddl_lang.text.values import json_value
 from nddlc.check import STORE
 from nddlc.inputs import Unusable
@@ -43,8 +43,7 @@ def command(before: str, after: str, confidence: float, store_path: Path, style:
         click.echo(json.dumps(_data(found, before, after, confidence), ensure_ascii=False, indent=1))
     else:
         click.echo(_text(found, before, after, confidence), nl=False)
-    is_worse = found.change > 0.0 and found.chance < _SURE
-    return _WORSE if is_worse else _SAME
+    return _WORSE if found.is_worse and found.chance < _SURE else _SAME
 
 
 def _missions(name: str, store_path: Path) -> dict[Mission, Trialled]:
@@ -72,7 +71,8 @@ def _stored(store: RunStore, name: str) -> dict[Mission, Trialled]:
 def _trialled(result: MissionResult) -> Trialled:
     judgement = result.judgement
     text = failure_text(judgement, result.open_goals)
-    return Trialled(result.number, result.verdict is Verdict.FAIL, judgement.code, text)
+    is_random = result.point.role is MissionRole.RANDOM
+    return Trialled(result.number, result.verdict is Verdict.FAIL, judgement.code, text, is_random)
 
 
 def _reported(path: Path) -> dict[Mission, Trialled]:
@@ -93,15 +93,13 @@ def _reported(path: Path) -> dict[Mission, Trialled]:
 
 def _text(found: Comparison, before: str, after: str, confidence: float) -> str:
     count = found.missions
-    lower, upper = (number(round(100.0 * end, 2)) for end in found.interval)
     worse = sum(one.now_fails for one in found.flips)
     lines = [
         f"{missions(count)} in common: {before} failed {found.failed_before} ({percent(found.failed_before / count)}), "
         f"{after} failed {found.failed_after} ({percent(found.failed_after / count)})",
         f"  {worse} fail only in {after}, {len(found.flips) - worse} only in {before}; "
         f"McNemar's exact test: p = {found.chance:.3g}",
-        f"  the rate changes by {number(round(100.0 * found.change, 2))} points, "
-        f"{number(confidence * 100.0)} % interval {lower} to {upper}",
+        f"  {_change_text(found, confidence)}",
     ]
     for one in found.flips[:_MOST]:
         failing = one.after if one.now_fails else one.before
@@ -112,6 +110,16 @@ def _text(found: Comparison, before: str, after: str, confidence: float) -> str:
     return "\n".join(lines) + "\n"
 
 
+def _change_text(found: Comparison, confidence: float) -> str:
+    """The change of the failure rate with its interval; where there is none, why."""
+    if found.change is None or found.interval is None:
+        return "a sampler chose all of these missions: by how much the failure rate changes they do not tell"
+    lower, upper = (number(round(100.0 * end, 2)) for end in found.interval)
+    basis = "" if found.counted == found.missions else f" (by the {missions(found.counted)} that no sampler chose)"
+    points = number(round(100.0 * found.change, 2))
+    return f"the rate changes by {points} points{basis}, {number(confidence * 100.0)} % interval {lower} to {upper}"
+
+
 def _data(found: Comparison, before: str, after: str, confidence: float) -> dict[str, Any]:
     return {
         "before": before,
@@ -120,9 +128,10 @@ def _data(found: Comparison, before: str, after: str, confidence: float) -> dict
         "failed_before": found.failed_before,
         "failed_after": found.failed_after,
         "p": found.chance,
+        "counted": found.counted,
         "change": found.change,
         "confidence": confidence,
-        "interval": list(found.interval),
+        "interval": None if found.interval is None else list(found.interval),
         "flips": [
             {
                 "seed": one.seed,

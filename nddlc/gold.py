@@ -9,8 +9,7 @@ import click
 from checker.gold import Gold, differences, gold_lines, gold_path, gold_text, read_gold
 from checker.mission import LARGEST_SEED
 from checker.one_flight import FlightSettings, fly
-from nddl_lang.text.write import write_whole
-from nddlc.inputs import Unusable
+from nddlc.inputs import Unusable, write_text
 from nddlc.one_mission import prepare, values_of
 from nddlc.trust import trust_option
 
@@ -40,10 +39,7 @@ def command(action: str, path: str, seed: int | None, given: tuple[str, ...], by
         now = datetime.now(UTC).isoformat(timespec="seconds")
         lines = gold_lines(flight.outcome)
         gold = Gold(file.name, number, dict(settings.values), flight.models, by or _user(), now, lines)
-        try:
-            write_whole(place, gold_text(gold))
-        except OSError as problem:
-            raise Unusable(f"cannot write `{place}`: {problem.strerror}") from None
+        write_text(place, gold_text(gold))
         click.echo(f"accepted: {len(lines)} events, in `{place}`")
         return _SAME
     gold = _accepted(place)

@@ -114,12 +114,12 @@ def configured(path: Path) -> Settings:
     return _configuration(real_path(path).parent)
 
 
-def write_text(path: Path, text: str) -> None:
-    """Put a text into a file; complains where that cannot be."""
+def write_text(path: Path, text: str, advice: str | None = None) -> None:
+    """Put a text into a file; complains where that cannot be, with the advice."""
     try:
         write_whole(path, text)
     except OSError as problem:
-        raise Unusable(f"cannot write `{path}`: {problem.strerror or problem}") from None
+        raise Unusable(f"cannot write `{path}`: {problem.strerror or problem}", advice) from None
 
 
 def chosen_dialect(ctx: click.Context, given: str | None) -> Dialect | None:

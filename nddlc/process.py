@@ -28,9 +28,8 @@ from checker.process import (
     records_path,
 )
 from checker.report.sentences import decision, headline
-from nddl_lang.text.write import write_whole
 from nddlc.check import STORE, cores
-from nddlc.inputs import Unusable
+from nddlc.inputs import Unusable, write_text
 from nddlc.one_mission import prepare
 from nddlc.trust import trust_option
 
@@ -72,10 +71,7 @@ def command(action: str, path: str, by: str | None, workers: int | None, store_p
         return _FINDINGS
     now = datetime.now(UTC).isoformat(timespec="seconds")
     record = StepRecord(step.value, digest, by or _user(), now, seen)
-    try:
-        write_whole(place, record_text((*records, record)))
-    except OSError as problem:
-        raise Unusable(f"cannot write `{place}`: {problem.strerror}") from None
+    write_text(place, record_text((*records, record)))
     return _PASSED
 
 

@@ -7,9 +7,8 @@ import click
 
 from checker.batch.store import LATEST
 from checker.regression import RegressionCase, RegressionError, cases_text, read_cases, regressions_path
-from nddl_lang.text.write import write_whole
 from nddlc.check import STORE
-from nddlc.inputs import Unusable
+from nddlc.inputs import Unusable, write_text
 from nddlc.shrink import shrunk_lines, shrunk_mission
 from nddlc.trust import trust_option
 
@@ -35,11 +34,9 @@ def command(what: str, name: str | None, store_path: Path, is_trusted: bool) -> 
     )  # fmt: skip
     try:
         cases = [one for one in read_cases(place) if one.name != title]
-        write_whole(place, cases_text([*cases, case]))
     except RegressionError as problem:
         raise Unusable(str(problem)) from None
-    except OSError as problem:
-        raise Unusable(f"cannot write `{place}`: {problem.strerror}") from None
+    write_text(place, cases_text([*cases, case]))
     click.echo("\n".join(shrunk_lines(found)))
     click.echo(f"kept as case `{title}` in `{place.name}`; `nddlc check` flies it first")
     return 0

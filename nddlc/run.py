@@ -15,9 +15,8 @@ from checker.mission import LARGEST_SEED
 from checker.one_flight import Flight, FlightSettings, fly, trace_text
 from checker.oracle import Verdict
 from checker.rendering import failure_text
-from nddl_lang.text.write import write_whole
 from nddlc.fitting import columns, say
-from nddlc.inputs import Unusable, mission_here
+from nddlc.inputs import mission_here, write_text
 from nddlc.one_mission import prepare, values_of
 from nddlc.trust import trust_option
 from runtime.executive.events import single_events
@@ -51,10 +50,7 @@ def command(
     flight = fly(mission, models, settings)
     _progress("")
     if trace is not None:
-        try:
-            write_whole(trace, trace_text(flight, file, trace))
-        except OSError as problem:
-            raise Unusable(f"cannot write the trace to `{trace}`: {problem.strerror}") from None
+        write_text(trace, trace_text(flight, file, trace))
     say(_report(mission.agent.name, flight))
     return _PASS if flight.judgement.verdict is Verdict.PASS else _FAIL
 

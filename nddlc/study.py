@@ -14,9 +14,8 @@ from checker.report.study import study_data, study_page, study_svg, study_text
 from checker.study.cells import StudyCell, campaign_of, cell_of, lay_out, with_beyond
 from checker.study.reading import StudyFile, Variant, read_study
 from nddl_lang.text.render import render
-from nddl_lang.text.write import write_whole
 from nddlc.check import STORE, cores
-from nddlc.inputs import Unusable, colours, readable
+from nddlc.inputs import Unusable, colours, readable, write_text
 from nddlc.mission_trust import models_of
 from nddlc.progress import Display
 from nddlc.trust import trust_option
@@ -86,7 +85,7 @@ def command(
     cells = list(with_beyond(cells))
     reports = {"study.json": study_data(study, cells), "figure12.svg": study_svg(study, cells)}
     for name, text in {**reports, "study.html": study_page(study, cells)}.items():
-        write_whole(output / name, text)
+        write_text(output / name, text, "--output names a folder; what was flown is kept in --store")
     click.echo(study_text(study, cells) if style == "text" else reports["study.json"], nl=False)
     if style == "text":
         click.echo(f"\nfigure: {output / 'study.html'} (beside it figure12.svg, study.json)")

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from checker.batch.store import Run, StoreError, check_version, open_store, result_of
+from checker.batch.write_ahead_log import log_damage
 
 _MOST_MESSAGES = 20
 _MOST_MISSIONS = 10_000_000  # of one run that are looked for where its row does not say how many there are
@@ -39,7 +40,8 @@ def examine(path: Path) -> StoreDamage:
                     whole += 1
                 else:
                     damaged.append((run.id, number))
-    return StoreDamage(len(runs), whole, tuple(damaged), pages)
+    log = log_damage(path)
+    return StoreDamage(len(runs), whole, tuple(damaged), (*pages, *([log] if log else [])))
 
 
 def salvage(path: Path, target: Path) -> StoreDamage:

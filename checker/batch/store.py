@@ -16,6 +16,7 @@ from typing import Any
 
 from checker.batch.lock import Locks
 from checker.batch.result import MissionResult, read_record, write_record
+from checker.batch.write_ahead_log import log_damage
 from checker.oracle import Verdict
 from checker.regression import RegressionCase
 from checker.sampling.sampler import SamplePoint
@@ -103,6 +104,7 @@ class RunStore:
         self._pending: list[tuple[str, int, str, str, int]] = []
         self._flushed = time.monotonic()
         self._locks: Locks | None = None
+        self._file = _file_at(path)
 
     def begin(self, run: Run, *, keep: bool) -> dict[int, MissionResult]:
         """Register `run` as the latest; return what it has finished before if `keep`, else forget that.
@@ -144,6 +146,9 @@ class RunStore:
                 query = "INSERT OR REPLACE INTO missions VALUES (?, ?, ?, ?, ?)"
                 self._connection.executemany(query, self._pending)
             self._pending.clear()
+            if _file_at(self.path) != self._file:
+                what = f"the store `{self.path}` was moved, removed or replaced while it was written to"
+                raise StoreError(what, "if you have moved it, all that was flown is in it: --store names its new place")
         self._flushed = time.monotonic()
 
     def find(self, name: str) -> Run | None:
@@ -245,6 +250,15 @@ class RunStore:
             raise _told(problem, self.path) from problem
 
 
+def _file_at(path: Path) -> tuple[int, int] | None:
+    """What tells the file at a path from every other one; None where there is none."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
+
+
 def result_of(row: tuple[object, ...]) -> MissionResult | None:
     """The result in a row (run, number, verdict, result, checksum); None where the row is damaged."""
     run, number, verdict, text, written = row
@@ -297,6 +311,8 @@ def _connect(path: Path) -> sqlite3.Connection:
     """A connection to a store of this version; a new one gets its tables."""
     connection: sqlite3.Connection | None = None
     try:
+        if damage := log_damage(path):
+            raise StoreError(f"the store `{path}` is damaged: {damage}", _SALVAGE)
         connection = sqlite3.connect(path, timeout=10.0)
         check_version(connection, path)
         connection.execute("PRAGMA journal_mode = WAL")

@@ -68,7 +68,9 @@ def rate_line(rate: Rate) -> str:
         share = f"{percent(rate.observed)} of the missions failed" if rate.missions else "no mission was flown"
         return f"{share}; no interval: a design chose them, so that they are not independent"
     basis = ""
-    if rate.counted < rate.missions:
+    if rate.has_gaps:
+        basis = f" in the {missions(rate.counted)} before the first one still in flight"
+    elif rate.counted < rate.missions:
         basis = f" in the {missions(rate.counted)} that no design chose"
     elif rate.method is Method.WEIGHTED:
         basis = f" ({rate.failures} of {rate.missions} missions failed, where failures were sought)"

@@ -1,9 +1,10 @@
 """Adaptive importance sampling: missions near failures and near distress, with weights that keep the rate right.
 
-Each generation is drawn from a mixture of known density: a third as the mission file says, a part near the edges of
-the box (where rare faults are, of one parameter or of several), and a part around what failed or came near to it
-(a kernel density, as in Zhang 1996 and in the cross-entropy method). A mission counts with 1 / density; no weight is
-above `most_weight`, and given all before it each has the failure rate as its mean.
+Each generation is drawn from a mixture of known density: a third as the mission file says, a part from product
+densities that explore (near corners, near edges, and in the middle of the box, where a region of several parameters
+must reach if it touches no edge), and a part around what failed or came near to it (a kernel density, as in Zhang 1996
+and in the cross-entropy method). A mission counts with 1 / density; no weight is above `most_weight`, and given all
+before it each has the failure rate as its mean. docs/study.md has what this finds, and the bound on any sampler.
 """
 
 from collections.abc import Sequence
@@ -14,12 +15,50 @@ import numpy as np
 from checker.sampling.sampler import RANDOM_POINT, MissionRole, SamplePoint, Setting, Trial
 
 _UNIFORM = 0.35  # kept elsewhere
-_EDGES = 0.30  # while nothing has failed; 0.10 afterwards
+_SOUGHT = 0.30  # where distress is followed; 0.10 once something has failed
 _GENERATION = 20
-_FINEST = 1e-4  # distance from an edge at which the density stops rising
-_BROAD = 0.5  # of the edge component, each axis alone: drawn from the whole of it
+_FINEST, _NEAR = 1e-4, 0.1  # least and greatest distance from an edge
 _ELITE = 0.1  # of the missions that did not fail, those in most distress
 _MOST_KERNELS = 60
+
+
+@dataclass(frozen=True, slots=True)
+class _ProductMixture:
+    """Product densities: each axis alone lies between margin and 1 - margin with chance `inner`, else near an end.
+
+    The distance from the end is log-uniform between `_FINEST` and `_NEAR`. One row per product; `share` is that of the
+    missions that explore.
+    """
+
+    inner: np.ndarray
+    margin: np.ndarray
+    share: np.ndarray
+
+    def draw(self, generator: np.random.Generator, count: int, axes: int) -> np.ndarray:
+        """Points, one per row."""
+        product = generator.choice(len(self.share), size=count, p=self.share)
+        inner, margin = self.inner[product, None], self.margin[product, None]
+        place, side, distance, which = generator.random((4, count, axes))
+        distance = _FINEST * (_NEAR / _FINEST) ** distance
+        near = np.where(side < 0.5, distance, 1.0 - distance)
+        return np.asarray(np.where(which < inner, margin + (1.0 - 2.0 * margin) * place, near))
+
+    def density(self, rows: np.ndarray) -> np.ndarray:
+        """At each row."""
+        distance = np.minimum(rows, 1.0 - rows)
+        is_near = (distance >= _FINEST) & (distance <= _NEAR)
+        near = np.where(is_near, 0.5 / (np.maximum(distance, _FINEST) * np.log(_NEAR / _FINEST)), 0.0)
+        inner, margin = self.inner[:, None, None], self.margin[:, None, None]
+        middle = np.where(distance >= margin, inner / (1.0 - 2.0 * margin), 0.0)
+        return np.asarray(self.share @ (middle + (1.0 - inner) * near).prod(axis=2))
+
+
+# Corners; edges and what lies between them, all of it and the better part; the middle.
+EXPLORING = _ProductMixture(
+    inner=np.array([0.0, 0.5, 0.5, 1.0, 1.0]),
+    margin=np.array([0.0, 0.0, 0.15, 0.2, 0.3]),
+    share=np.array([0.06, 0.40, 0.38, 0.05, 0.11]),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,36 +99,21 @@ class Adaptive:
         generator = setting.generator("adaptive", len(trials))
         kernels = _kernels_of(trials, len(setting.axes))
         has_failed = any(trial.failed for trial in trials)
-        edges = 0.0 if not trials else 0.10 if has_failed else _EDGES
-        local = 0.0 if kernels is None else 1.0 - _UNIFORM - edges
-        if kernels is None and edges:
-            edges = 1.0 - _UNIFORM
+        exploring = 0.0 if not trials else 0.10 if has_failed else _SOUGHT
+        local = 0.0 if kernels is None else 1.0 - _UNIFORM - exploring
+        if kernels is None and exploring:
+            exploring = 1.0 - _UNIFORM
         component = generator.random(count)
         rows = generator.random((count, len(setting.axes)))
-        near = _draw_edges(generator, count, len(setting.axes))
-        rows = np.where((component < local + edges)[:, None], near, rows)
+        rows = np.where((component < local + exploring)[:, None], EXPLORING.draw(generator, *rows.shape), rows)
         if kernels is not None:
             rows = np.where((component < local)[:, None], kernels.draw(generator, count), rows)
-        density = 1.0 - local - edges + edges * _edge_density(rows)
+        density = 1.0 - local - exploring + exploring * EXPLORING.density(rows)
         if kernels is not None:
             density += local * kernels.density(rows)
         return [
             setting.point(row, MissionRole.WEIGHTED, 1.0 / float(at)) for row, at in zip(rows, density, strict=True)
         ]
-
-
-def _draw_edges(generator: np.random.Generator, count: int, axes: int) -> np.ndarray:
-    """Rows with each axis at one of its ends, log-uniform in the distance, or anywhere."""
-    broad, side, distance, which = generator.random((4, count, axes))
-    distance = _FINEST * (0.5 / _FINEST) ** distance
-    near = np.where(side < 0.5, distance, 1.0 - distance)
-    return np.asarray(np.where(which < _BROAD, broad, near))
-
-
-def _edge_density(rows: np.ndarray) -> np.ndarray:
-    distance = np.minimum(rows, 1.0 - rows)
-    near = np.where(distance >= _FINEST, 0.5 / (np.maximum(distance, _FINEST) * np.log(0.5 / _FINEST)), 0.0)
-    return np.asarray((_BROAD + (1.0 - _BROAD) * near).prod(axis=1))
 
 
 def _kernels_of(trials: Sequence[Trial], axes: int) -> _Kernels | None:

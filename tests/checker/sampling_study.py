@@ -3,9 +3,13 @@
     python -m tests.checker.sampling_study 10000            every sampler
     python -m tests.checker.sampling_study 10000 adaptive   some of them
 
+10 000 batches of all take some ten minutes, nearly all of them for the adaptive sampler.
+
 The true rates are known: they are the volumes of the failing regions. A batch ends with its last mission, when a rule
 to stop by has its answer, with its third failure, or when time is over, where missions that fail take a tenth of the
-time of others. Of samplers with plain random missions in fixed places only these count: they are drawn as arrays.
+time of others; intervals that may be looked at while missions fly are also asked to cover at each mission at once. Of
+samplers with plain random missions in fixed places only these count: they are drawn as arrays. An interval of weighted
+missions covers a rate where bets against this rate have not won enough: that is asked of the bets.
 """
 
 import sys
@@ -40,6 +44,7 @@ class End(StrEnum):
     RULE = "a rule to stop by"
     FAILURES = "third failure"
     SECONDS = "time is over"
+    ANY = "any mission"  # whichever: the interval covers after each of them
 
 
 @dataclass(frozen=True)
@@ -58,6 +63,7 @@ WORLDS = {
     "rare edge": World(lambda u: u[..., 1] > 0.998, 0.002),
     "disc": World(lambda u: (u[..., 0] - 0.4) ** 2 + (u[..., 1] - 0.6) ** 2 < 0.01, pi * 0.01),
     "scattered": World(lambda u: (u[..., 0] * 1e4) % 1.0 < 0.06, 0.06),
+    "rare pocket": World(lambda u: (abs(u - [0.3, 0.5, 0.6, 0.4]) < 0.002**0.25 / 2.0).all(axis=-1), 0.002),
     "half": World(lambda u: u[..., 0] + u[..., 3] > 1.0, 0.5),
     "never": World(lambda u: u[..., 0] > 2.0, 0.0),
 }
@@ -76,9 +82,9 @@ def fly(sampler: Sampler, world: World, missions: int, dice: np.random.Generator
     trials: list[Trial] = []
     batch = Batch([], [])
     while len(trials) < missions:
-        for point in sampler.choose(trials, missions - len(trials))[: missions - len(trials)]:
-            shares = np.array([share for _, share in point.shares]) if point.shares else dice.random(len(AXES))
-            failed = bool(world.fails(shares))
+        points = sampler.choose(trials, missions - len(trials))[: missions - len(trials)]
+        rows = np.array([[share for _, share in one.shares] or dice.random(len(AXES)) for one in points])
+        for point, shares, failed in zip(points, rows, world.fails(rows).tolist(), strict=True):
             trials.append(Trial(point, failed, behaviour=frozenset({int(8 * shares[0]), 100 + int(8 * shares[2])})))
             batch.flown.append((failed, point))
             batch.shares.append(shares)
@@ -102,6 +108,16 @@ class Coverage:
     count: int
     mean: float
     deviation: float
+
+    @property
+    def share(self) -> float:
+        """Of the intervals, those that covered."""
+        return self.covered / self.count
+
+    @property
+    def error(self) -> float:
+        """Standard error of the share, that of the nominal one at least where all covered."""
+        return sqrt(max(self.share * (1.0 - self.share), 1.0 / self.count) / self.count)
 
     def is_nominal(self) -> bool:
         """At least the nominal coverage, but for four standard errors of the simulation."""
@@ -129,6 +145,16 @@ def decision_table(most: int) -> np.ndarray:
         for failures in range(missions + 1):
             lower, upper = confidence_sequence(failures, missions, RULE.confidence)
             table[missions, failures] = upper <= RULE.rate or lower >= RULE.rate
+    return table
+
+
+@cache
+def sequence_covers(most: int, rate: float) -> np.ndarray:
+    """Whether the confidence sequence covers a rate, by missions that count and failures among them."""
+    table = np.zeros((most + 1, most + 1), dtype=bool)
+    for missions in range(1, most + 1):
+        for failures in range(missions + 1):
+            table[missions, failures] = covers(confidence_sequence(failures, missions, CONFIDENCE), rate)
     return table
 
 
@@ -167,6 +193,10 @@ def _random_coverage(failed: np.ndarray, world: World, end: End, *, is_plain: bo
             ends = first(sums >= FAILURES)
         case End.SECONDS:
             ends = (np.where(failed, FAST, 1.0).cumsum(axis=1) <= plain / 4).sum(axis=1)
+        case End.ANY:
+            covered = sequence_covers(plain, world.rate)[np.arange(1, plain + 1), sums].all(axis=1)
+            seen = sums[:, -1] / plain
+            return Coverage(Method.SEQUENCE, int(covered.sum()), count, float(seen.mean()), float(seen.std()))
     hits = np.where(ends > 0, sums[np.arange(count), ends - 1], 0)
     # As in the campaign: the exact interval is for plain random missions that end with the last, or the k-th failure.
     is_sequential = end in (End.RULE, End.SECONDS) or (end is End.FAILURES and not is_plain)
@@ -176,7 +206,7 @@ def _random_coverage(failed: np.ndarray, world: World, end: End, *, is_plain: bo
         flights = [(True, SamplePoint())] * failures + [(False, SamplePoint())] * (flown - failures)
         rate = judge_missions(flights, LIMIT, CONFIDENCE, is_sequential=is_sequential)
         assert rate.interval is not None
-        return _covers(rate.interval, world), rate.observed, rate.method
+        return covers(rate.interval, world.rate), rate.observed, rate.method
 
     found = [judged(int(failures), int(flown)) for failures, flown in zip(hits, ends, strict=True)]
     seen = np.array([observed for _, observed, _ in found])
@@ -189,23 +219,29 @@ def _is_decided(flown: list[tuple[bool, SamplePoint]], most_weight: float) -> bo
     return RULE.outcome(flown, most_weight) is not None
 
 
-def _covers(interval: tuple[float, float], world: World) -> bool:
-    return interval[0] <= world.rate + 1e-9 and world.rate - 1e-9 <= interval[1]
+def covers(interval: tuple[float, float], rate: float) -> bool:
+    """Whether a rate lies in an interval, but for the rounding of its ends."""
+    return interval[0] <= rate + 1e-9 and rate - 1e-9 <= interval[1]
 
 
 def _weighted_coverages(name: str, world: World, missions: int, count: int) -> dict[End, Coverage]:
     """Of a sampler that learns: each batch is chosen by the sampler itself."""
     covered, estimates = dict.fromkeys(End, 0), {end: np.zeros(count) for end in End}
+    needed = log_stake(CONFIDENCE)
     for number, (batch, sampler) in enumerate(batches(name, world, missions, count)):
+        values = [point.weight if failed else 0.0 for failed, point in batch.flown]
+        is_in = np.maximum(*log_wealth(values, sampler.most_weight, world.rate)) < needed
         for end in End:
-            flown = batch.flown[: _end_of(batch, sampler, end)]
-            is_sequential = end is not End.MISSIONS
-            rate = judge_missions(
-                flown, LIMIT, CONFIDENCE, most_weight=sampler.most_weight, is_sequential=is_sequential
-            )
-            assert rate.interval is not None
-            covered[end] += _covers(rate.interval, world)
-            estimates[end][number] = rate.observed
+            at = _end_of(batch, sampler, end)
+            covers_rate = bool(is_in.all() if end is End.ANY else at == 0 or is_in[at - 1])
+            covered[end] += covers_rate
+            estimates[end][number] = np.mean(values[:at]) if at else 0.0
+            if number < _RULED:
+                flown = batch.flown[:at]
+                rate = judge_missions(flown, LIMIT, CONFIDENCE, most_weight=sampler.most_weight, is_sequential=True)
+                assert rate.interval is not None
+                assert end is End.ANY or covers(rate.interval, world.rate) == covers_rate
+                assert abs(rate.observed - estimates[end][number]) < 1e-8
     return {
         end: Coverage(Method.WEIGHTED, covered[end], count, float(estimates[end].mean()), float(estimates[end].std()))
         for end in End
@@ -216,16 +252,14 @@ def _end_of(batch: Batch, sampler: Sampler, end: End) -> int:
     """How many missions of a batch of weighted missions count."""
     failed = np.array([[failed for failed, _ in batch.flown]])
     match end:
-        case End.MISSIONS:
+        case End.MISSIONS | End.ANY:
             return len(batch.flown)
         case End.RULE:
             assert RULE is not None
             values = [point.weight if failed else 0.0 for failed, point in batch.flown]
             above, below = log_wealth(values, sampler.most_weight, RULE.rate)
             decided = np.maximum(above, below) >= log_stake(RULE.confidence)
-            count = int(first(decided[None, :])[0])
-            assert _is_decided(batch.flown[:count], sampler.most_weight) == decided.any()
-            return count
+            return int(first(decided[None, :])[0])
         case End.FAILURES:
             return int(first(failed.cumsum(axis=1) >= FAILURES)[0])
         case End.SECONDS:
@@ -233,22 +267,31 @@ def _end_of(batch: Batch, sampler: Sampler, end: End) -> int:
 
 
 def main(count: int, names: Sequence[str]) -> int:
-    """Print the coverage of every interval; the number of those that fall short."""
+    """Print the coverage of every interval, and the lowest of each sampler; the number of those that fall short."""
     short = 0
+    lowest: list[str] = []
     for name in names or SAMPLERS:
+        every: list[tuple[Coverage, str]] = []
         for caption, world in WORLDS.items():
             found = coverages(name, world, 200, count)
             for end, one in found.items():
                 good = one.is_nominal()
                 short += not good
+                every.append((one, f"{caption}, {end.value}"))
                 print(
                     f"{name:14} {caption:13} {end.value:18} {one.method.value:20} covers "
-                    f"{100 * one.covered / count:6.2f} %  rate {world.rate:.4f}, mean estimate {one.mean:.4f}"
+                    f"{100 * one.share:6.2f} %  rate {world.rate:.4f}, mean estimate {one.mean:.4f}"
                     f"{'' if good else '  TOO FEW'}",
                     flush=True,
                 )
-            if not found:
-                print(f"{name:14} {caption:13} refuses an interval")
+        if not every:
+            lowest.append(f"{name:14} refuses an interval")
+            continue
+        least, where = min(every, key=lambda one: one[0].share)
+        lowest.append(
+            f"{name:14} {100 * least.share:6.2f} % (+- {100 * least.error:.2f}) {least.method.value}: {where}"
+        )
+    print("\nLowest coverage, with its standard error:", *lowest, sep="\n")
     return short
 
 

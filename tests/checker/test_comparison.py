@@ -2,13 +2,14 @@
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy import stats
 
-from checker.comparison import Trialled, compare
+from checker.comparison import Comparison, Trialled, compare
 from checker.process import ProcessStep, StepRecord, missing_before, passed
 from nddlc.main import run
 
@@ -29,7 +30,8 @@ def test_flips_are_counted_on_common_seeds() -> None:
     assert [one.seed for one in found.flips if one.now_fails] == [5, 6, 7, 8, 9, 10, 11]
     assert found.chance == pytest.approx(stats.binomtest(3, 10).pvalue)
     assert found.change == pytest.approx(4 / 18)
-    assert found.interval[0] < found.change < found.interval[1]
+    assert found.interval is not None
+    assert found.interval[0] < 4 / 18 < found.interval[1]
 
 
 def test_the_interval_of_the_change_covers() -> None:
@@ -38,9 +40,29 @@ def test_the_interval_of_the_change_covers() -> None:
     for _ in range(300):
         before = dice.random(80) < 0.2
         after = np.where(dice.random(80) < 0.1, ~before, before)
-        lower, upper = compare(trialled(list(before)), trialled(list(after)), 0.9).interval
+        found = compare(trialled(list(before)), trialled(list(after)), 0.9)
+        assert found.interval is not None
+        lower, upper = found.interval
         covered += lower <= 0.1 * (1 - 2 * 0.2) <= upper
     assert covered >= 300 * 0.9
+
+
+def test_missions_that_a_sampler_chose_tell_no_change_of_the_rate() -> None:
+    """Twenty plain random missions, then those that a sampler has put where most fail."""
+    before, after = trialled([False] * 60), trialled([False] * 18 + [True] * 42)
+
+    def chosen_after(most: int) -> Comparison:
+        first, second = (
+            {k: replace(one, is_random=one.number <= most) for k, one in run.items()} for run in (before, after)
+        )
+        return compare(first, second, 0.95)
+
+    mixed, chosen = chosen_after(20), chosen_after(0)
+    assert (mixed.missions, mixed.counted, mixed.change) == (60, 20, 0.1)
+    assert mixed.interval == compare(trialled([False] * 20), trialled([False] * 18 + [True] * 2), 0.95).interval
+    assert (chosen.change, chosen.interval) == (None, None)
+    assert chosen.is_worse
+    assert chosen.chance < 1e-9
 
 
 def test_nothing_in_common_is_no_comparison() -> None:

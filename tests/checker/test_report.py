@@ -10,7 +10,7 @@ import pytest
 
 from checker.campaign import Campaign
 from checker.excerpts import Excerpts
-from checker.findings import Findings
+from checker.findings import Ending, Findings
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.names import relative_name
@@ -124,6 +124,29 @@ def test_junit_has_a_case_per_mission(findings: Findings) -> None:
     assert "models/gps/rules.nddl:34: duration <= SURFACE_MAX;" in failure.text
 
 
+@pytest.mark.parametrize("kept", ["none", "errors", "gaps", "failures"])
+def test_every_form_is_well_formed_whatever_came_of_a_batch(campaign: Campaign, findings: Findings, kept: str) -> None:
+    """Ended by a signal before anything was flown, with nothing but errors, with gaps, with nothing but failures."""
+    chosen = {
+        "none": [],
+        "errors": [one for one in findings.results if one.verdict is Verdict.ERROR],
+        "gaps": [one for one in findings.results if one.number not in (12, 13)],
+        "failures": [one for one in findings.results if one.verdict is Verdict.FAIL],
+    }[kept]
+    found = campaign.assess(tuple(chosen), may_fly=False, ending=Ending.SIGNAL)
+    excerpts = Excerpts(ROOT)
+    suite = ElementTree.fromstring(junit_report(found, excerpts))[0]
+    for name, tag in (("tests", "testcase"), ("failures", "testcase/failure"), ("errors", "testcase/error")):
+        assert suite.get(name) == str(len(suite.findall(tag)))
+    check_sarif(json.loads(sarif_report(found, excerpts)))
+    data = json.loads(json_report(found, excerpts), parse_constant=lambda word: pytest.fail(word))
+    assert (data["verdict"], data["ending"], len(data["missions"])) == ("interrupted", "signal", len(chosen))
+    assert data["rate"]["counted"] == (10 if kept == "gaps" else 0)  # of 1 to 11 without the ERROR
+    assert "interrupted" in text_report(found, excerpts)
+    assert html_report(found, excerpts, campaign.stories(found)).rstrip().endswith("</html>")
+    assert markdown_report(found, excerpts).startswith("#")
+
+
 def test_sarif_points_at_the_line(findings: Findings) -> None:
     log = json.loads(sarif_report(findings, Excerpts(ROOT)))
     check_sarif(log)
@@ -142,6 +165,17 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
         write_whole(path, "half \ud800")
     assert path.read_text() == "first"
     assert [child.name for child in path.parent.iterdir()] == ["report.txt"]
+
+
+def test_a_link_to_itself_is_replaced_and_a_folder_of_links_in_a_circle_is_no_place(tmp_path: Path) -> None:
+    """`Path.resolve` makes a RuntimeError of such a link, which was told as a bug of nddlc."""
+    link, folder = tmp_path / "report.txt", tmp_path / "folder"
+    link.symlink_to(link)
+    write_whole(link, "text")
+    assert link.read_text() == "text"
+    folder.symlink_to(folder)
+    with pytest.raises(OSError, match=r"exists|links"):
+        write_whole(folder / "report.txt", "text")
 
 
 def test_an_excerpt_is_of_what_was_flown(tmp_path: Path) -> None:

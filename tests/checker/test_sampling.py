@@ -4,11 +4,14 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from checker.batch.result import MissionResult
 from checker.betting import betting_interval
+from checker.oracle import Judgement, Verdict
 from checker.rate import Method, judge_missions
-from checker.sampling.adaptive import Adaptive
+from checker.sampling.adaptive import EXPLORING, Adaptive
 from checker.sampling.sampler import MissionRole, SamplePoint, Setting, ShareAxis, Trial, axes_of, with_point
-from checker.sensitivity import sensitivity
+from checker.sampling.seeds import mission_seed
+from checker.sensitivity import sensitivities, sensitivity
 from checker.statistics import confidence_sequence, exact_interval, mcnemar
 from checker.stopping import parse_rule
 from nddlc.samplers import SAMPLERS, find_sampler
@@ -106,6 +109,20 @@ def test_the_adaptive_sampler_finds_a_fault_of_two_in_a_thousand(world: str) -> 
     assert found >= 48
 
 
+def test_the_adaptive_sampler_finds_a_ball_of_two_in_a_thousand_wherever_it_lies() -> None:
+    """A ball of six parameters cannot lie near an edge; 300 plain random missions find it in 45 % of batches."""
+    axes = tuple(ShareAxis(name, 0.0, 1.0 - 2.0**-53) for name in "ABCDEF")
+    radius = (0.002 / (np.pi**3 / 6.0)) ** (1.0 / 6.0)
+    found = []
+    for seed in range(20):  # while nothing fails, a batch is the same wherever the ball lies
+        rows = shares_of(chosen("adaptive", 300, axes, seed))
+        rows = np.vstack([rows, np.random.default_rng([seed, 7]).random((300 - len(rows), 6))])
+        centres = radius + (1.0 - 2.0 * radius) * np.random.default_rng([seed, 8]).random((20, 6))
+        distances = ((rows[None] - centres[:, None]) ** 2).sum(axis=2)
+        found += list((distances <= radius**2).any(axis=1))
+    assert np.mean(found) > 0.7
+
+
 def test_the_adaptive_sampler_finds_twice_the_failures_and_looks_elsewhere_too() -> None:
     """B2 fails beyond both of two limits: in four corners of 4 % each (trex 4 row 39)."""
     world = WORLDS["four corners"]
@@ -118,6 +135,17 @@ def test_the_adaptive_sampler_finds_twice_the_failures_and_looks_elsewhere_too()
     assert failures >= 2 * world.rate * missions
     assert outside >= 0.25 * missions
     assert np.mean(estimates) == pytest.approx(world.rate, abs=4 * float(np.std(estimates)) / 5)
+
+
+def test_the_densities_that_explore_are_those_of_what_they_draw() -> None:
+    """The mean of 1 / density over what was drawn in a part of the box is the volume of that part."""
+    dice = np.random.default_rng(4)
+    rows = EXPLORING.draw(dice, 40_000, 2)
+    for lower, upper in ((0.002, 0.05), (0.93, 0.99), (0.05, 0.17), (0.35, 0.65), (0.0002, 0.9998)):
+        in_part = ((rows > lower) & (rows < upper)).all(axis=1)
+        weights = np.where(in_part, 1.0 / EXPLORING.density(rows), 0.0)
+        assert weights.mean() == pytest.approx((upper - lower) ** 2, abs=5.0 * float(weights.std()) / 200.0)
+    assert EXPLORING.share.sum() == pytest.approx(1.0)
 
 
 def test_weights_are_the_inverse_of_a_density() -> None:
@@ -262,6 +290,43 @@ def test_a_rule_is_shown_refuted_or_open() -> None:
     assert rule.outcome([failing] * 10, 1.0) is False
     designed = SamplePoint(role=MissionRole.DESIGNED)
     assert rule.outcome([(True, designed)] * 100, 1.0) is None
+
+
+def test_of_many_parameters_none_is_named_by_chance() -> None:
+    """Failures that depend on nothing: in one batch of twenty at most is any of thirty parameters told from chance."""
+    agent = AgentConfiguration(
+        "a", "", 10, (), parameters=tuple(ParameterConfiguration(f"P{number}", 0.0, 1.0) for number in range(30))
+    )
+    named = 0
+    for batch in range(60):
+        found = sensitivities(agent, [failed(mission_seed(batch, number)) for number in range(1, 21)], 0.95)
+        assert len(found) == 30
+        named += any(one.interval[0] > 0.0 for one in found)
+    assert named <= 60 * 0.05 + 4.0 * (60 * 0.05 * 0.95) ** 0.5
+
+
+def failed(seed: int) -> MissionResult:
+    return MissionResult(1, seed, Judgement(Verdict.FAIL, "F1"), None, False)
+
+
+def test_missions_in_flight_when_a_signal_comes_do_not_bend_the_rate() -> None:
+    """A hundred lanes, where missions that fail take a tenth of the time of others, are ended after a few missions."""
+    dice, covered = np.random.default_rng(9), 0
+    for _ in range(100):
+        failing = dice.random(2000) < 0.1
+        ends, lanes = np.empty(2000), np.zeros(100)
+        for number, fails in enumerate(failing):
+            lane = int(lanes.argmin())
+            lanes[lane] += 0.1 if fails else 1.0
+            ends[number] = lanes[lane]
+        finished = np.flatnonzero(ends <= dice.uniform(0.5, 3.0))
+        gapless = int((finished == np.arange(len(finished))).sum())
+        flown = [(bool(failing[number]), SamplePoint()) for number in finished]
+        rate = judge_missions(flown, 0.0, 0.95, is_sequential=True, gapless=gapless)
+        assert rate.interval is not None
+        assert rate.missions == len(finished)
+        covered += rate.interval[0] <= 0.1 <= rate.interval[1]
+    assert covered >= 90
 
 
 def test_a_distance_is_that_of_kolmogorov_and_its_interval_covers() -> None:

@@ -7,6 +7,7 @@ import pytest
 
 from checker.batch.salvage import examine, salvage
 from checker.batch.store import Run, StoreError, open_store
+from checker.regression import RegressionError, read_cases
 from nddlc.main import run
 from tests.checker.fake_agent import load_linked
 from tests.checker.test_batch import fly
@@ -91,3 +92,49 @@ def test_what_is_no_store_is_not_called_a_bug(
     assert run(["check", "models/gps/mission.toml", "--missions", "2", "--store", str(path)]) == 2
     assert complaint in capsys.readouterr().err
     assert run(["store", "check", str(path)]) == 2
+
+
+def test_a_store_that_is_moved_away_meanwhile_is_told_and_has_all_that_was_flown(tmp_path: Path) -> None:
+    """SQLite goes on writing into a file that was moved or removed, and says nothing."""
+    (tmp_path / "here").mkdir()
+    results = fly(load_linked, range(9), 1)
+    with pytest.raises(StoreError, match="was moved, removed or replaced"), open_store(tmp_path / "here/s") as opened:
+        opened.begin(RUNS[0], keep=True)
+        opened.add(RUNS[0], results[0])
+        opened.flush()
+        (tmp_path / "here").rename(tmp_path / "there")
+        for result in results[1:]:
+            opened.add(RUNS[0], result)
+        opened.flush()
+    with open_store(tmp_path / "there/s") as moved:
+        assert len(moved.results(RUNS[0].id)) == len(results)
+
+
+def test_cases_in_a_folder_are_no_bug(tmp_path: Path) -> None:
+    (tmp_path / "m.regressions.toml").mkdir()
+    with pytest.raises(RegressionError, match="cannot be read"):
+        read_cases(tmp_path / "m.regressions.toml")
+
+
+@pytest.mark.parametrize("place", [0, 6, 20])
+def test_a_log_that_sqlite_would_drop_without_a_word_is_told(
+    store: Path, place: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Magic, version, salt: SQLite takes the log for an empty one, and said that nothing is wrong."""
+    connection = sqlite3.connect(store)
+    connection.execute("UPDATE runs SET missions = 6 WHERE id = '00ff00ff'")
+    connection.commit()
+    log = Path(f"{store}-wal")
+    written = bytearray(log.read_bytes())
+    connection.close()
+    log.write_bytes(written)
+    assert examine(store).is_none
+    written[place] ^= 0x40
+    log.write_bytes(written)
+    assert run(["store", "check", str(store)]) == 1
+    assert "what was written last" in capsys.readouterr().out
+    with pytest.raises(StoreError, match="what was written last"), open_store(store):
+        pass
+    assert run(["store", "salvage", str(store)]) == 0
+    assert Path(f"{store}.damaged-wal").read_bytes() == written
+    assert run(["store", "check", str(store)]) == 0
