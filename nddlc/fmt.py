@@ -10,7 +10,7 @@ from nddl_lang.formatter.format import format_text
 from nddl_lang.syntax.dialect import Dialect, declared_dialect
 from nddl_lang.text.diagnostic import Severity
 from nddl_lang.text.render import render
-from nddlc.inputs import Unusable, chosen_dialect, colours, models_below, readable, write_text
+from nddlc.inputs import Unusable, chosen_dialect, colours, models_below, models_only, readable, write_text
 
 _STDIN = "-"
 
@@ -64,6 +64,7 @@ def _read(name: str) -> str:
     if name == _STDIN:
         content, name = sys.stdin.buffer.read(), "the standard input"
     else:
+        models_only((name,))
         (path,) = readable((name,), ())
         content = path.read_bytes()
     try:
