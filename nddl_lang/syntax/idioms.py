@@ -164,6 +164,8 @@ def find_idiom(b: Builder, first: int, index: int, is_inside: bool) -> Idiom | N
 
     The parser could not go on with the lexeme `index`; `is_inside`: the statement stands in a block.
     """
+    if b.kinds[first] in ("}", END):
+        return None
     last = first
     ends = ("}", END) if b.kinds[first] == "enum" else (";", "{", END)
     while b.kinds[last] not in ends and last - first < _MOST_WORDS:

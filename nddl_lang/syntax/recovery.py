@@ -28,6 +28,7 @@ from nddl_lang.syntax.codes import (
 from nddl_lang.syntax.expectation import accepts, describe_expected, expected_kinds
 from nddl_lang.syntax.former import put_in_parentheses
 from nddl_lang.syntax.idioms import Idiom, find_idiom
+from nddl_lang.syntax.lexemes import excerpt
 from nddl_lang.syntax.misspelt import all_relations, meant_word
 from nddl_lang.syntax.nodes import BrokenStatement
 from nddl_lang.syntax.placement import break_statement
@@ -288,8 +289,11 @@ class Recovery:
         if idiom is not None:
             b.piece.forget(UNEXPECTED_CHARACTER, span)
         if is_stray:
-            fix = Fix("remove the `}`", (Edit(b.at(index), ""),), safe=False)
-            self._report(STRAY_BRACE, index, text="}", fixes=(fix,))
+            run = b.piece.span(start, b.piece.length)  # of those that follow too
+            text = excerpt("".join(run.text.split()))
+            fix = Fix(f"remove the `{text}`", (Edit(run, ""),), safe=False)
+            if not self._is_quiet:
+                b.report(STRAY_BRACE, run, text=text, fixes=(fix,))
         else:
             self._report_expected(states, first, index, idiom)
         del states[depth + 1 :]

@@ -7,6 +7,7 @@ import re
 
 from nddl_lang.syntax.braces import (
     close_body,
+    end_of_strays,
     is_surplus,
     lacks_brace,
     leave_out,
@@ -227,6 +228,9 @@ class Scanner:
             if kinds[1:3] == ["::", "IDENT"] and kinds[3:4] not in _AFTER_HEAD and self._lacks_brace(finish):
                 return kind
             self._end = finish
+            if kind == "}" and not kinds:
+                self._end, seen = end_of_strays(self._source.text, finish)
+                piece.reach = max(piece.reach, seen + 1)
             if self._has_if:
                 # The condition may have an `else` branch.
                 ahead = _ELSE_AHEAD.match(self._source.text, finish)

@@ -15,6 +15,7 @@ _LOOPS = ("for", "while")
 _REST = re.compile(r'[^\n;(){}="]*(?:;[^\n;(){}="]*)*+(\))?')
 _REST_OF_LOOP = re.compile(r"[^\n{}]*(\))?")
 _REST_OF_LINE = re.compile(r"[ \t]*(?://[^\n]*)?(?:\n|\Z)\s*+([{\"])?")
+_MOST_LEXEMES, _FARTHEST = 200, 1000  # of one call, so that a long line stays quick to read
 _HEADS = ("if", "foreach", "while", "for")
 
 
@@ -24,7 +25,7 @@ def separates(piece: Piece, text: str, base: int, start: int) -> bool:
     if head is None or piece.kinds[head] not in ("IDENT", "foreach", "super"):
         return False
     is_loop = piece.texts[head] in _LOOPS
-    rest = (_REST_OF_LOOP if is_loop else _REST).match(text, start + 1)
+    rest = (_REST_OF_LOOP if is_loop else _REST).match(text, start + 1, start + 1 + _FARTHEST)
     assert rest is not None
     piece.reach = max(piece.reach, rest.end() + 1)
     if is_loop:
@@ -70,9 +71,9 @@ def opens_block(piece: Piece, brackets: Brackets, text: str, base: int, start: i
 
 
 def _before_parenthesis(kinds: list[str]) -> int | None:
-    """The lexeme before the parenthesis that is still open at the end of `kinds`."""
+    """The lexeme before the parenthesis that is still open at the end of `kinds`, if it is near."""
     depth = 0
-    for at in range(len(kinds) - 1, 0, -1):
+    for at in range(len(kinds) - 1, max(0, len(kinds) - _MOST_LEXEMES), -1):
         depth += {")": 1, "(": -1}.get(kinds[at], 0)
         if depth < 0:
             return at - 1
