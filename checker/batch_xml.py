@@ -105,7 +105,15 @@ def read_batch(source: Source) -> tuple[BatchFile | None, tuple[Diagnostic, ...]
     try:
         reader.parser.Parse(reader.encoded, True)
     except expat.ExpatError as error:
-        return None, (ILL_BATCH.at(reader.span(), reason=expat.ErrorString(error.code)),)
+        reason, open_ = expat.ErrorString(error.code), reader.stack[1:]
+        help_ = None
+        if open_:
+            tag = open_[-1].tag
+            close = nearest(tag, (_PARAMETER, *_PARTS, *_VALUES))
+            help_ = f"`<{tag}>` is open: it ends with `</{tag}>`" + (
+                f", or is meant to be `<{close}>`" if close else ""
+            )
+        return None, (ILL_BATCH.at(open_[-1].span if open_ else reader.span(), reason=reason, help=help_),)
     except _DoctypeFoundError:
         return None, (ILL_BATCH.at(reader.span(), reason="it declares a document type"),)
     assert reader.root is not None
@@ -136,6 +144,7 @@ def _find(node: _Node) -> list[_Node]:
 
 
 def _parameter(node: _Node, complaints: list[Diagnostic]) -> tuple[ParameterConfiguration, int | None]:
+    begun = len(complaints)
     name = node.attributes.get("name", "").strip()
     if not name:
         complaints.append(ILL_BATCH.at(node.span, reason=f"a `{_PARAMETER}` needs a `name`"))
@@ -144,7 +153,7 @@ def _parameter(node: _Node, complaints: list[Diagnostic]) -> tuple[ParameterConf
     parts = {child.tag: child for child in node.children if child.tag in _PARTS}
     for child in node.children:
         if child.tag not in (*_PARTS, *_VALUES):
-            complaints.append(ILL_BATCH.at(child.span, reason=f"there is no element `{child.tag}` in a `{_PARAMETER}`"))
+            complaints.append(_unknown(child, _PARAMETER, _PARTS))
     batch = parts.get("BatchSampler")
     values: dict[str, dict[str, float]] = {tag: {} for tag in _PARTS}
     values |= {tag: _values(part, complaints) for tag, part in parts.items()}
@@ -158,7 +167,10 @@ def _parameter(node: _Node, complaints: list[Diagnostic]) -> tuple[ParameterConf
         if inner is not None:
             shape, is_whole = _SHAPES[inner]
     given = values[drawing] | (_values(node, complaints) if not parts else {})
-    lower, upper, clip = _range(shape, given, node, complaints)
+    known = len(complaints)
+    lower, upper, clip = _range(shape, given, parts.get(drawing, node), complaints)
+    if begun < known:  # what stands there says why the range is none
+        del complaints[known:]
     update = int(values["Sampler"].get("UpdateFrequency", _UPDATE))
     if update < 1:
         complaints.append(ILL_BATCH.at(node.span, reason="`UpdateFrequency` must be at least 1"))
@@ -187,10 +199,13 @@ def _range(
             clip = (given.get("Min", -math.inf), given.get("Max", math.inf))
         return given["Mean"] - half, given["Mean"] + half, clip
     if not {"Min", "Max"} <= given.keys():
-        complaints.append(ILL_BATCH.at(node.span, reason="`Min` and `Max` are missing"))
+        missing = " and ".join(f"`{key}`" for key in ("Min", "Max") if key not in given)
+        complaints.append(ILL_BATCH.at(node.span, reason=f"{missing} {'are' if 'and' in missing else 'is'} missing"))
         return 0.0, 0.0, None
     if given["Min"] > given["Max"]:
-        complaints.append(ILL_BATCH.at(node.span, reason=f"`Min` {given['Min']:g} is above `Max` {given['Max']:g}"))
+        place = next((child.span for child in node.children if child.tag == "Min"), node.span)
+        reason = f"`Min` {given['Min']:g} is above `Max` {given['Max']:g}"
+        complaints.append(ILL_BATCH.at(place, reason=reason, help="exchange them"))
     return given["Min"], given["Max"], None
 
 
@@ -212,6 +227,13 @@ def _component(
     return name
 
 
+def _unknown(child: _Node, owner: str, known: tuple[str, ...]) -> Diagnostic:
+    """An element that has no meaning where it stands."""
+    close = nearest(child.tag, known)
+    advice = f"did you mean `{close}`?" if close else "there are: " + ", ".join(known)
+    return ILL_BATCH.at(child.span, reason=f"there is no element `{child.tag}` in a `{owner}`", help=advice)
+
+
 def _values(node: _Node, complaints: list[Diagnostic]) -> dict[str, float]:
     """The numbers of an element: of its attributes, its elements, and those of a component written as an element."""
     texts = {key: (text, node.span) for key, text in node.attributes.items() if key in _VALUES}
@@ -221,7 +243,7 @@ def _values(node: _Node, complaints: list[Diagnostic]) -> dict[str, float]:
         elif child.tag in _SHAPES:
             texts |= {key: (f"{value!r}", child.span) for key, value in _values(child, complaints).items()}
         elif child.tag not in _PARTS:
-            complaints.append(ILL_BATCH.at(child.span, reason=f"there is no element `{child.tag}` in a `{node.tag}`"))
+            complaints.append(_unknown(child, node.tag, _VALUES))
     found: dict[str, float] = {}
     for key, (text, span) in texts.items():
         try:
@@ -229,7 +251,8 @@ def _values(node: _Node, complaints: list[Diagnostic]) -> dict[str, float]:
         except ValueError:
             value = math.nan
         if not math.isfinite(value) or (key in ("Seed", "UpdateFrequency") and value != int(value)):
-            complaints.append(ILL_BATCH.at(span, reason=f"`{key}` is `{text}`, which is no number that it can be"))
+            wanted = "a whole number" if key in ("Seed", "UpdateFrequency") else "a number, such as 0.5"
+            complaints.append(ILL_BATCH.at(span, reason=f"`{key}` is `{text}`", help=f"it is {wanted}"))
         else:
             found[key] = value
     return found

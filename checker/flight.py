@@ -85,8 +85,9 @@ def load_solver(root: Path, path: str | None) -> Configuration:
     """The flaw handling in a file; the default where none is named."""
     if path is None:
         return default_configuration()
-    configuration, _ = read_configuration(read_source(root / path))
-    return configuration or default_configuration()
+    configuration, complaints = read_configuration(read_source(root / path))
+    assert configuration is not None, complaints  # a mission with mistakes is not flown
+    return configuration
 
 
 def _relative(outcome: Outcome, root: Path) -> Outcome:

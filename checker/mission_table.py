@@ -1,6 +1,7 @@
 """Take values out of one TOML table, each with its type and its limits; complain with places about all else."""
 
 import math
+import re
 import sys
 from collections.abc import Sequence
 
@@ -13,7 +14,7 @@ from checker.codes import (
     WRONG_TYPE,
 )
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
-from nddl_lang.text.nearest import nearest
+from nddl_lang.text.nearest import begun, nearest
 from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import Path, Stretch
 from runtime.executive.configuration import Bounds
@@ -59,6 +60,23 @@ class MissionText:
         return SourcePlace(name, line, max(1, column - before), text)
 
 
+# What other tools call keys and choices of a mission file.
+_OTHER_WORDS = {
+    **dict.fromkeys(("begin", "from", "earliest", "when"), "start"),
+    **dict.fromkeys(("finish", "until", "latest", "deadline"), "end"),
+    **dict.fromkeys(("std", "stddev", "stdev", "std_dev", "sd", "deviation"), "sigma"),
+    **dict.fromkeys(("mu", "average", "loc"), "mean"),
+    **dict.fromkeys(("min", "max", "bounds", "interval", "domain"), "range"),
+    **dict.fromkeys(("gauss", "gaussian"), "normal"),
+    **dict.fromkeys(("required", "must"), "mandatory"),
+    **dict.fromkeys(("count", "runs", "trials", "n", "number"), "missions"),
+    **dict.fromkeys(("file", "source", "nddl"), "model"),
+    **dict.fromkeys(("owns", "publishes"), "internal"),
+    **dict.fromkeys(("uses", "subscribes"), "external"),
+    **dict.fromkeys(("ticks", "duration", "horizon", "end_tick"), "final_tick"),
+    **dict.fromkeys(("params", "arguments", "args"), "parameters"),
+}
+_NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 _LEAST_LETTERS = 4  # of a key that can be told from others when it is misspelt
 
 
@@ -80,9 +98,12 @@ class Table:
         for key in self.values:
             if key not in self.asked:
                 span = self.text.key_span((*self.path, key))
-                close = nearest(key, self.asked)
+                close = _meant_word(key, self.asked)
                 fixes = (Fix(f"write `{close}`", (Edit(span, close),)),) if close else ()
                 advice = f"did you mean `{close}`?" if close else "known keys: " + ", ".join(self.asked)
+                if close is None and "parameters" in self.asked and not isinstance(self.values[key], dict):
+                    inner = ".".join(part for part in (*self.path, "parameters") if isinstance(part, str))
+                    advice += f"; parameters of the predicate stand below `[{inner}]`"
                 self.text.diagnostics.append(
                     UNKNOWN_KEY.at(span, key=key, table=self.caption, help=advice, fixes=fixes)
                 )
@@ -170,7 +191,7 @@ class Table:
         if _is_number(value):
             value = [value, value]
         if not (isinstance(value, list) and len(value) == 2 and all(_is_number(item) for item in value)):
-            self._complain_of_type(key, value, "a pair [lower, upper] of numbers")
+            self._complain_of_type(key, value, "a pair [lower, upper] of numbers", _as_pair(value))
             return None
         lower, upper = value
         if lower != lower or upper != upper:  # nan
@@ -200,7 +221,7 @@ class Table:
         if isinstance(value, str):
             if value in choices:
                 return value
-            close = nearest(value, choices)
+            close = _meant_word(value, choices)
             span = self.text.value_span((*self.path, key))
             listed = ", ".join(choices)
             advice = f"did you mean `{close}`?" if close else None
@@ -214,7 +235,8 @@ class Table:
         value = self._take(key, needed=needed)
         if isinstance(value, dict):
             return Table(self.text, (*self.path, key), value, caption)
-        self._complain_of_type(key, value, f"a table, [{key}]")
+        header = ".".join(part for part in (*self.path, key) if isinstance(part, str))
+        self._complain_of_type(key, value, f"a table, [{header}]")
         return Table(self.text, (*self.path, key), {}, caption, is_told=needed)
 
     def tables(self, key: str, *, needed: bool = False) -> list["Table"]:
@@ -249,7 +271,8 @@ class Table:
 
     def _misspelt(self, key: str) -> str | None:
         """The key that stands in the table for a longer one which is missing."""
-        return nearest(key, self.values) if len(key) >= _LEAST_LETTERS else None
+        other = next((each for each in self.values if _OTHER_WORDS.get(each.casefold()) == key), None)
+        return (nearest(key, self.values) if len(key) >= _LEAST_LETTERS else None) or other
 
     def _complain_of_type(self, key: str, value: object, wanted: str, advice: str | None = None) -> None:
         if key in self.values:
@@ -257,6 +280,18 @@ class Table:
             self.text.diagnostics.append(
                 WRONG_TYPE.at(span, key=key, wanted=wanted, found=describe(value), help=advice)
             )
+
+
+def _meant_word(word: str, known: Sequence[str]) -> str | None:
+    """The one of the known words that was meant by another: misspelt, cut short, or the word of another tool."""
+    other = _OTHER_WORDS.get(word.casefold())
+    return nearest(word, known) or begun(word, known) or (other if other in known else None)
+
+
+def _as_pair(value: object) -> str | None:
+    """How a range that is written as a text is written."""
+    numbers = _NUMBER.findall(re.sub(r"(?<=\d)\s*-\s*(?=\d)", " ", value)) if isinstance(value, str) else []
+    return f"write [{numbers[0]}, {numbers[1]}]" if len(numbers) == 2 else None
 
 
 def describe(value: object) -> str:

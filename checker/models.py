@@ -3,6 +3,7 @@
 import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
 
 from checker.figures import figure_misfits
@@ -20,6 +21,7 @@ from nddl_lang.syntax.includes import OpenText, load_module_graph
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.read import NotAFileError, read_source, read_text
 from runtime.executive.configuration import AgentConfiguration
+from runtime.solver.configuration.read import read_configuration
 from runtime.user.library import load_library
 
 
@@ -90,11 +92,13 @@ def load_models(mission: Mission, open_text: OpenText = read_text) -> ModelSet:
     texts |= {each.file: (root / each.file).read_text(encoding="utf-8") for each in agent.coded if each.file}
     texts |= dict(_named_files(agent, root))
     solvers = dict.fromkeys(each.solver for each in agent.reactors if each.solver is not None)
-    texts |= {name: read_source(root / name).text for name in solvers}
+    configured = [read_source(root / name) for name in solvers]
+    texts |= {name: source.text for name, source in zip(solvers, configured, strict=True)}
+    told = [analysis.diagnostics for analysis in analyses.values()]
+    told += [read_configuration(source)[1] for source in configured]
     found: dict[tuple[str, int, str, str], Diagnostic] = {}
-    for analysis in analyses.values():
-        for one in analysis.diagnostics:
-            found.setdefault((one.span.source.name, one.span.begin, one.code.id, one.message), one)
+    for one in chain.from_iterable(told):
+        found.setdefault((one.span.source.name, one.span.begin, one.code.id, one.message), one)
     if any(one.severity is Severity.ERROR for one in found.values()):
         return ModelSet(agent, {}, texts, {}, tuple(found.values()))
     programs = {model: compile_model(analysis) for model, analysis in analyses.items()}

@@ -25,6 +25,7 @@ from nddl_lang.syntax.nodes import (
     GoalStatement,
     Identifier,
     Include,
+    PredicateDecl,
     Relation,
     Statement,
     TypedefDecl,
@@ -35,6 +36,7 @@ from nddl_lang.text.source import Source, Span
 
 _TEXT_IS_MISSING = (MISSING_FILE, UNREADABLE_FILE, TOO_DEEP, UNCLOSED_COMMENT)
 _UNKNOWN = (UNKNOWN_NAME, UNKNOWN_TYPE, UNKNOWN_CLASS)
+_INCLUDING = frozenset(("include", "import", "using"))
 _TABLES = tuple(table.name for table in fields(SideTables))
 
 
@@ -187,16 +189,29 @@ def _deferred(symbols: SymbolTable, unit: _Unit, loaded: LoadedModules, callable
 def _note_declarations(symbols: SymbolTable, loaded: LoadedModules) -> None:
     """Note what is declared where, and which names are doubtful because text was not understood or is missing."""
     for statement in loaded.module.statements:
-        if isinstance(statement, BrokenStatement):
-            words = names_in(statement.span.text)
+        for broken in _broken(statement):
+            words = names_in(broken.span.text)
             for word in words:
                 symbols.doubt(word)
-            if "include" in words:
+            if not _INCLUDING.isdisjoint(words):
                 symbols.doubt()
         for name in _declared_names(statement):
             symbols.suppose("below", name.name, name.span)
     if any(diagnostic.code in _TEXT_IS_MISSING for diagnostic in loaded.diagnostics):
         symbols.doubt()
+
+
+def _broken(statement: Statement) -> Iterator[BrokenStatement]:
+    """The statement, or what it declares for others, where it was not understood."""
+    match statement:
+        case BrokenStatement():
+            yield statement
+        case ClassDecl(members=members) if members is not None:
+            for member in members:
+                if isinstance(member, PredicateDecl):
+                    yield from (each for each in member.body if isinstance(each, BrokenStatement))
+        case _:
+            pass
 
 
 def _declared_names(statement: Statement) -> Iterator[Identifier]:

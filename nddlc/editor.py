@@ -18,6 +18,7 @@ from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source, Span
 from nddlc.known import known_callables
 from nddlc.main import named
+from runtime.solver.configuration.read_toml import is_solver_toml
 from runtime.user.fault import UserCodeError
 
 
@@ -69,7 +70,7 @@ def examine_for_editor(source: Source, root: Path, is_trusted: bool) -> tuple[Di
 
 
 def _complaints(source: Source, root: Path, is_trusted: bool) -> Iterator[Diagnostic]:
-    if "solver" in Path(source.name).name.lower():
+    if "solver" in Path(source.name).name.lower() or is_solver_toml(source.text):
         yield from named("runtime.solver.configuration.read:read_configuration")(source)[1]
         return
     mission, found = named("checker.mission:parse_mission")(source, root)

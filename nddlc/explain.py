@@ -28,7 +28,7 @@ from checker.oracle import Verdict
 from checker.pinned import pinned
 from nddlc.check import STORE
 from nddlc.fitting import say
-from nddlc.inputs import Unusable, readable
+from nddlc.inputs import Unusable, present, readable
 from nddlc.mission_trust import models_of
 from nddlc.progress import SeekingDisplay
 from nddlc.samplers import SAMPLERS, find_sampler
@@ -40,7 +40,7 @@ _DRAWN = {"dot": graph_dot, "svg": graph_svg}
 
 @click.command()
 @click.argument("what", metavar="RUN[#MISSION]", default=LATEST)
-@click.option("--mission", "mission_path", type=click.Path(path_type=Path, exists=True), help="Whose log RUN is.")
+@click.option("--mission", "mission_path", type=click.Path(path_type=Path), help="Whose log RUN is.")
 @click.option(
     "--format", "style", type=click.Choice(["text", "json", "dot", "svg"]), default="text", help="How to print it."
 )
@@ -68,6 +68,7 @@ def command(
     (.jsonl) of that mission: the reactors that ask nobody do what is on record, the others plan anew with the models
     as they are.
     """
+    present(mission_path)
     if mission_path is not None:
         return _print(_replayed(Path(what), mission_path, Bounds(flights, seconds), is_trusted), style, events, verbose)
     name, _, number = what.partition("#")

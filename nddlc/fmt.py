@@ -1,6 +1,7 @@
 """`nddlc fmt`: put models into the one style, or tell which are not in it."""
 
 import difflib
+import gc
 import sys
 from pathlib import Path
 
@@ -10,7 +11,7 @@ from nddl_lang.formatter.format import format_text
 from nddl_lang.syntax.dialect import Dialect, declared_dialect
 from nddl_lang.text.diagnostic import Severity
 from nddl_lang.text.render import render
-from nddlc.inputs import Unusable, chosen_dialect, colours, models_below, readable, write_text
+from nddlc.inputs import Unusable, chosen_dialect, colours, models_below, models_only, readable, write_text
 
 _STDIN = "-"
 
@@ -28,6 +29,9 @@ def command(ctx: click.Context, files: tuple[str, ...], dialect: str | None, onl
     Statements with mistakes stay as they are. Ends with 1 if there are such, or if --check or --diff finds
     something to change.
     """
+    # As in `lint`: looking for garbage would only cost.
+    gc.disable()
+    ctx.call_on_close(gc.enable)
     chosen = chosen_dialect(ctx, dialect)
     dry = only_check or with_diff
     changed, broken = 0, 0
@@ -36,8 +40,8 @@ def command(ctx: click.Context, files: tuple[str, ...], dialect: str | None, onl
         formatted = format_text(before, chosen or declared_dialect(before) or Dialect.NDDLC, name)
         mistakes = [each for each in formatted.diagnostics if each.severity is Severity.ERROR]
         broken += bool(mistakes)
-        for each in mistakes:
-            click.echo(render(each, colour=colours()), err=True)
+        if mistakes:
+            click.echo("\n".join(render(each, colour=colours()) for each in mistakes), err=True)
         if formatted.text != before:
             changed += 1
             if with_diff:
@@ -64,6 +68,7 @@ def _read(name: str) -> str:
     if name == _STDIN:
         content, name = sys.stdin.buffer.read(), "the standard input"
     else:
+        models_only((name,))
         (path,) = readable((name,), ())
         content = path.read_bytes()
     try:

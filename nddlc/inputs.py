@@ -23,6 +23,15 @@ from nddlc.fitting import columns, fitted
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
+_MISSION = "`nddlc lint` looks at missions and configurations"
+_NO_MODELS = {
+    ".toml": _MISSION,
+    ".xml": _MISSION,
+    **dict.fromkeys((".py", ".md", ".json", ".jsonl", ".sqlite", ".html"), "`nddlc --help` tells what reads others"),
+}
+_NAMED = (".nddl", ".toml", ".xml", ".json", ".jsonl")
+
+
 class Unusable(click.ClickException):
     """A command line that cannot be carried out, with what to do about it."""
 
@@ -152,6 +161,19 @@ def _readable(name: str) -> Path:
     return path
 
 
+def present(path: Path | None) -> None:
+    """Complain of a file or folder that is not there, with the one that was probably meant."""
+    if path is not None and not path.exists():
+        raise Unusable(f"no file `{path}`", _alike(path))
+
+
+def models_only(files: tuple[str, ...]) -> None:
+    """Complain of what is no model by its name, for a command that reads nothing else."""
+    for name in files:
+        if Path(name).suffix.lower() in _NO_MODELS:
+            raise Unusable(f"`{name}` is no model", f"models end in .nddl; {_NO_MODELS[Path(name).suffix.lower()]}")
+
+
 def _in_directory(path: Path) -> str:
     """What to name instead of a directory."""
     missions = sorted(path.glob("*.toml"))
@@ -175,7 +197,7 @@ def _alike(path: Path) -> str | None:
         if candidate != path and candidate.is_file():
             return f"there is `{candidate}`"
     try:
-        beside = [each for each in sorted(path.parent.iterdir()) if each.suffix in (".nddl", ".toml")]
+        beside = [each for each in sorted(path.parent.iterdir()) if each.suffix in _NAMED]
     except OSError:
         return f"there is no directory `{path.parent}`"
     whole, stems = {each.name: each for each in beside}, {each.stem: each for each in beside}

@@ -17,6 +17,7 @@ from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
 from nddl_lang.text.junit import junit_of
+from nddl_lang.text.read import read_source
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.sarif import sarif_of
 from nddl_lang.text.source import Span
@@ -114,7 +115,12 @@ def _check(checker: Checker, path: Path, settings: Settings) -> tuple[Diagnostic
         return checker.check(path, settings)
     if path.name in (NAME, PROJECT):
         return tuple(read_configuration(path)[1])
-    found: tuple[Diagnostic, ...] = named("checker.models:examine")(path)
+    found: tuple[Diagnostic, ...]
+    source = read_source(path)
+    if path.suffix == ".toml" and named("runtime.solver.configuration.read_toml:is_solver_toml")(source.text):
+        found = named("runtime.solver.configuration.read:read_configuration")(source)[1]
+    else:
+        found = named("checker.models:examine")(path)
     return tuple(settings.choose(found))
 
 

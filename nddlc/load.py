@@ -7,7 +7,7 @@ import click
 
 from nddl_lang.text.render import render
 from nddlc.fitting import columns, say
-from nddlc.inputs import chosen_dialect, colours, configured, model_files, readable
+from nddlc.inputs import chosen_dialect, colours, configured, model_files, models_only, readable
 from nddlc.trust import library_for, trust_option
 from runtime.loading import Loaded, as_data, load
 from runtime.plan.readout.state import PlanState
@@ -34,6 +34,7 @@ def command(
     """
     chosen = chosen_dialect(ctx, dialect)
     is_fine = True
+    models_only(files)
     for path, name in zip(readable(files, directories), files, strict=True):
         library = library_for(path, configured(path), is_trusted=is_trusted)
         loaded = load(path, directories, chosen, library, name)

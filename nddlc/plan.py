@@ -48,7 +48,7 @@ def _tick(text: str) -> int:
     try:
         number = int(text)
     except ValueError:
-        raise click.BadParameter(f"`{text}` is no whole number, nor inf or -inf") from None
+        raise click.BadParameter(f"`{text}` is no whole number, nor inf or -inf; it takes two, LO and HI") from None
     if abs(number) >= HALF_INF:
         raise click.BadParameter(f"`{text}` is too far away; write inf or -inf")
     return number

@@ -25,7 +25,8 @@ def command(code: str | None, is_list: bool) -> None:
         return
     found = PAGES.get(code.upper())
     if found is None:
-        meant = nearest(code.upper(), PAGES)
+        whole = f"NDDL{code}"
+        meant = whole if whole in PAGES else nearest(code.upper(), PAGES)
         raise Unusable(f"there is no code `{code}`", f"did you mean `{meant}`?" if meant else "`nddlc rule` lists them")
     click.echo("\n".join(_page(found)))
 

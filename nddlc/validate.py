@@ -25,7 +25,7 @@ from compiler.program import Program
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import render
-from nddlc.inputs import Unusable, readable
+from nddlc.inputs import Unusable, present, readable
 from nddlc.mission_trust import models_of
 from nddlc.trust import trust_option
 from runtime.executive.configuration import AgentConfiguration, ReactorConfiguration
@@ -49,8 +49,8 @@ class _Judged(NamedTuple):
 
 
 @click.command()
-@click.argument("plan", metavar="PLAN", type=click.Path(path_type=Path, exists=True))
-@click.option("--mission", "mission_path", type=click.Path(path_type=Path, exists=True), help="Whose trace or record.")
+@click.argument("plan", metavar="PLAN", type=click.Path(path_type=Path))
+@click.option("--mission", "mission_path", type=click.Path(path_type=Path), help="Whose trace or record.")
 @click.option("--seed", type=int, default=0, help="Of a mission that is flown here.")
 @click.option("--record", "target", type=click.Path(path_type=Path), help="Write the record of what was flown.")
 @click.option("--smt", "asks_z3", is_flag=True, help="Have z3 judge it as well, from the text of the model.")
@@ -72,6 +72,8 @@ def command(
     docs/validate.md describes the documents. The exit code is 1 where something breaks the model. With --smt z3 judges
     the same values, by what the text of the model demands.
     """
+    present(plan)
+    present(mission_path)
     try:
         if is_log(plan):
             judged = _logged(plan, mission_path, is_trusted)

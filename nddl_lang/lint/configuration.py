@@ -180,7 +180,7 @@ class _Reader:
     def _texts(self, key: Key, value: Any) -> list[str]:
         if isinstance(value, list) and all(isinstance(item, str) for item in value):
             return value
-        self._wrong(key, key[-1], "a list of texts")
+        self._wrong(key, key[-1], "a list of texts", f'["{value}"]' if isinstance(value, str) else None)
         return []
 
     def _wrong(self, key: Key, name: str | int, wanted: str, meant: str | None = None) -> None:

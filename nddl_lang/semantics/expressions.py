@@ -16,7 +16,7 @@ from nddl_lang.semantics.codes import (
     UNKNOWN_FUNCTION,
 )
 from nddl_lang.semantics.constraints import Origin
-from nddl_lang.semantics.functions import FunctionRow, ResultKind
+from nddl_lang.semantics.functions import OTHER_FUNCTIONS, FunctionRow, ResultKind
 from nddl_lang.semantics.literals import number
 from nddl_lang.semantics.names import find, resolve, resolve_value, suggest_name
 from nddl_lang.semantics.natives import TIME_NAMES
@@ -131,6 +131,15 @@ def _simple_type(context: Context, scope: Scope, expression: Expr) -> Type | Non
     return type_
 
 
+def _order_of_tokens(context: Context, binary: BinaryExpr) -> str | None:
+    """How an order of two tokens is written; None where one is something else."""
+    sides = (binary.left, binary.right)
+    if not all(isinstance(context.tables.references.get(each), TokenReference) for each in sides):
+        return None
+    relation = "before" if binary.op[0] == "<" else "after"
+    return f"one token after the other is a relation: `{binary.left.span.text} {relation} {binary.right.span.text}`"
+
+
 def _binary_type(context: Context, binary: BinaryExpr, left: Type | None, right: Type | None) -> Type | None:
     op = binary.op
     if op in _EQUALITIES:
@@ -139,7 +148,8 @@ def _binary_type(context: Context, binary: BinaryExpr, left: Type | None, right:
     if op in _ORDERS:
         for side, type_ in ((binary.left, left), (binary.right, right)):
             if type_ is not None and type_.kind not in COUNTABLE:
-                context.complain(NO_ORDER.at(side.span, op=op, text=side.span.text, found=phrase(type_)))
+                help_ = _order_of_tokens(context, binary)
+                context.complain(NO_ORDER.at(side.span, op=op, text=side.span.text, found=phrase(type_), help=help_))
                 break
         return BOOL
     if op in _LOGIC:
@@ -321,6 +331,8 @@ def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
             context.symbols.put_faulty("new")
             context.complain(UNKNOWN_FUNCTION.at(at, help=help_, fixes=(fix,), name=name))
             return None
+        if name in OTHER_FUNCTIONS:
+            complaint = UNKNOWN_FUNCTION.at(call.function.span, help=OTHER_FUNCTIONS[name], name=name)
         context.complain(suggest_name(complaint, call.function, context.callables.functions))
         return None
     _check_dialect(context, call, row)

@@ -141,3 +141,17 @@ _METHODS = (
 )
 
 METHODS: dict[tuple[Receiver, str], MethodRow] = {(row.receiver, row.name): row for row in _METHODS}
+
+_WIDE = "an interval is written `[1 5]`"
+# What other languages have for a function, and NDDL otherwise.
+OTHER_FUNCTIONS = {
+    "round": "round up by `ceil(x)`, down by `floor(x)`, to the nearest by `floor(x + 0.5)`",
+    "trunc": "round down by `floor(x)`",
+    "range": _WIDE,
+    "interval": _WIDE,
+    "between": f"{_WIDE}: `x == y` with `float y = [1 5];`, or `1 <= x; x <= 5;`",
+    "random": "what chance decides is `sampledParameter(NAME)`, of a global variable",
+    "uniform": "what chance decides is `sampledParameter(NAME)`, and the mission file says how it is drawn",
+    "normal": "what chance decides is `sampledParameter(NAME)`, and the mission file says how it is drawn",
+    "power": "a power is the function `pow(a, b)`",
+}

@@ -17,7 +17,7 @@ from nddl_lang.semantics.codes import (
     UNKNOWN_NAME,
     UNKNOWN_TOKEN_VARIABLE,
 )
-from nddl_lang.semantics.natives import builtin_names, builtin_type
+from nddl_lang.semantics.natives import builtin_names, builtin_type, other_name
 from nddl_lang.semantics.schema import (
     ClassReference,
     EnumValue,
@@ -183,7 +183,12 @@ def _find_token_variable(context: Context, label: Label, name: Identifier) -> To
         else:
             names = [parameter.name for parameter in predicate.parameters]
             only = names[0] if len(names) == 1 else None
-            complaint = suggest_name(complaint, name, [*names, *builtin_names(predicate.is_event)], last=only)
+            complaint = suggest_name(
+                complaint,
+                name,
+                [*names, *builtin_names(predicate.is_event)],
+                last=other_name(name.name, predicate) or only,
+            )
         context.complain(complaint)
     return None
 
@@ -256,13 +261,26 @@ def complain_unknown(
         constructed = scope.own_class if scope.kind is BlockKind.CONSTRUCTOR else None
         members = _members(context, constructed) if constructed is not None else ()
         candidates = [*scope.visible(), *own, *members, *symbols.names(*values, *tables), *_LITERALS]
-        meant = "this" if word == "self" and scope.own is not None else None
-        complaint = suggest_name(UNKNOWN_NAME.at(name.span, name=word), name, candidates, meant)
+        complaint = UNKNOWN_NAME.at(name.span, name=word)
+        if constructed is not None and _is_predicate(context, constructed, word):
+            meant = f'"{word}"'
+            complaint = UNKNOWN_NAME.at(name.span, name=word, help=f"a predicate is named in quotes: `{meant}`")
+        elif word == "self" and (scope.own is not None or constructed is not None):
+            meant = "this"
+        else:
+            meant = None
+        last = other_name(word, scope.own.predicate) if scope.own is not None else None
+        complaint = suggest_name(complaint, name, candidates, meant, last)
         if type_name is not None:
             before = Span(name.span.anchor, name.span.start, name.span.start)
             fix = Fix(f"declare `{type_name} {word}`", (Edit(before, f"{type_name} "),), safe=False)
             complaint = _with(complaint, complaint.help or fix.title, (*complaint.fixes, fix))
         context.complain(complaint)
+
+
+def _is_predicate(context: Context, class_name: str, name: str) -> bool:
+    """Whether tokens of a class may be of that predicate."""
+    return any(name in owner.predicates for owner in context.symbols.ancestry(class_name))
 
 
 def _is_own_member(context: Context, scope: Scope, name: str) -> bool:

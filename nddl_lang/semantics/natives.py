@@ -21,6 +21,13 @@ _STATES = ("INACTIVE", "ACTIVE", "MERGED", "REJECTED")
 _STEP_TYPES: dict[str, Type] = {"state": STATE, "duration": INT}
 _TOKEN_TYPES: dict[str, Type] = {**_STEP_TYPES, "start": INT, "end": INT}
 _EVENT_TYPES: dict[str, Type] = {**_STEP_TYPES, "time": INT}
+# What other languages, and people, call the variables of a token.
+_OTHER_NAMES = {
+    **dict.fromkeys(("begin", "begins", "start_time", "startTime", "starttime", "beginning"), "start"),
+    **dict.fromkeys(("finish", "finishes", "stop", "end_time", "endTime", "endtime", "ending"), "end"),
+    **dict.fromkeys(("length", "dur", "lasts", "timespan", "period"), "duration"),
+    **dict.fromkeys(("owner", "timeline", "instance"), "object"),
+}
 TIME_NAMES = frozenset({"start", "end", "time"})
 LEAST_DURATION = Interval(1, INFINITY)
 
@@ -38,6 +45,14 @@ def builtin_type(name: str, predicate: Predicate) -> Type | None:
 def builtin_names(is_event: bool) -> tuple[str, ...]:
     """The built-in variables of a token, or of an event."""
     return ("state", "object", *(name for name in (_EVENT_TYPES if is_event else _TOKEN_TYPES) if name != "state"))
+
+
+def other_name(name: str, predicate: Predicate) -> str | None:
+    """The built-in variable of the tokens of `predicate` that other languages call `name`."""
+    meant = _OTHER_NAMES.get(name)
+    if predicate.is_event and meant in ("start", "end"):
+        return "time"
+    return meant
 
 
 def _constructor(class_name: str, *names: str) -> Constructor:

@@ -18,6 +18,7 @@ _OPERATORS = {
     "elif": "write `else { if (...) { } }`",
     "is": "write `==`",
 }
+_OF_EXPRESSIONS = frozenset((".", "<", "<=", ">", ">=", "!=", "+", "*", "/"))
 _LOOPS = ("for", "repeat", "until", "while")
 
 
@@ -91,6 +92,8 @@ def _advise_after_name(kinds: list[str], texts: list[str], first: int, index: in
         return f"the parameters of a constructor have types: `{name}(int a) {{ }}`"
     if before[1:2] == ["("] and kind == ";":
         return "arguments are separated by commas; a constructor has a body, if only an empty one: `{ }`"
+    if before == ["IDENT", "IDENT"] and kind in _OF_EXPRESSIONS and "{" not in kinds[index : index + 3]:
+        return f"remove `{name}`, or join the names: `{name}.{texts[first + 1]}`"
     if before == ["IDENT", "IDENT"] and kind == "-":
         return "a name holds letters, digits and `_` only"
     return None

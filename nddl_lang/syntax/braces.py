@@ -17,6 +17,7 @@ _MEMBERS = _TYPES | {"predicate", "action"}
 _LINE = re.compile(r"\n([ \t]*)(//[^\n]*|[^\s])")
 # Not possessive: Python up to 3.11.2 misplaces a group behind a possessive one. Each line is read in one way only.
 _NEXT_LINE = re.compile(r"(?:[ \t\r\f]*(?://[^\n]*)?\n)*([ \t]*)(\}|(?:predicate|action)(?![A-Za-z0-9_$]))?")
+_STRAYS = re.compile(r"((?:[ \t\r\n\f]*\})*)[ \t\r\n\f]*")
 _LONGEST = len("predicate") + 1
 
 
@@ -105,6 +106,13 @@ def _goes_on(piece: Piece, text: str, finish: int, indent: int) -> bool:
         return is_end and between.count("{") == between.count("}")
     piece.reach = max(piece.reach, len(text) + 1)
     return False
+
+
+def end_of_strays(text: str, finish: int) -> tuple[int, int]:
+    """Where a run of `}` ends that begins before `finish` and closes nothing, and how far was looked."""
+    following = _STRAYS.match(text, finish)
+    assert following is not None
+    return following.end(1), following.end()
 
 
 def leave_out(piece: Piece, brackets: Brackets, start: int, base: int) -> None:

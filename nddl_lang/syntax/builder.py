@@ -263,7 +263,7 @@ def _describe(value: Expr) -> str:
 
 def binary(b: Builder, v: list[Any]) -> BinaryExpr:
     left, index, right = v
-    op = b.texts[index]
+    op = b.kinds[index]  # a sign may be written otherwise, after a complaint
     if op == "/" and b.is_strict:
         b.report(DIVISION, b.at(index), help="multiply: `quotient * divisor == dividend`")
     return BinaryExpr(op, left, right, b.at(index), Span(b.anchor, left.span.start, right.span.end))

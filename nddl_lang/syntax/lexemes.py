@@ -1,6 +1,7 @@
 """Judge single lexemes: numbers, strings, directives, and characters that mean nothing."""
 
 import re
+from unicodedata import category
 
 from nddl_lang.syntax.codes import (
     FORMER_DIRECTIVE,
@@ -31,13 +32,43 @@ _LEADING_DIGITS = re.compile(r"[+-]?[0-9]{1,16}")
 _ESCAPE = re.compile(r"\\(?:[btnfr\"'\\]|u[0-9a-fA-F]{4}|[0-7]|(.)|\Z)", re.DOTALL)
 _AFTER_STRING = re.compile(r"[ \t\r\n\f]*+(?:[;,)}\]:=!<>&|+\-*/]|\Z)")
 _NEARLY_INCLUDE = re.compile(r"(#[ \t]*([A-Za-z]+))[ \t]*\"")
+_CONSTANT = re.compile(r"#[ \t]*define[ \t]+([A-Za-z_$][\w$]*)[ \t]+([-+]?[0-9][\w.]*)(?=\s*(?://|/\*|$))")
 _EXCERPT = 24
 
 _HELP = {
     "%": "the remainder of a division is the function `mod(a, b)`",
     "^": "a power is the function `pow(a, b)`",
-    "?": "a choice between two values is an `if` in a rule",
+    "?": "a choice between two values is an `if` in a rule: `if (c) { x == a; } else { x == b; }`",
+    "~": "write `!`, or compare with `false`: `x == false`",
 }
+# What begins a line.
+_FIRST_HELP = {"@": "NDDL has no annotations", "%": "a comment begins with `//`"}
+# Signs as typesetters and other keyboards write them.
+_TYPESET = {
+    "≤": "<=",
+    "≥": ">=",
+    "≠": "!=",
+    "×": "*",
+    "·": "*",
+    "÷": "/",
+    "−": "-",
+    "–": "-",
+    "∧": "&&",
+    "∨": "||",
+    "；": ";",
+    "，": ",",
+    "（": "(",
+    "）": ")",
+    "｛": "{",
+    "｝": "}",
+    "［": "[",
+    "］": "]",
+    "：": ":",
+    "＝": "=",
+    "&": "&&",
+    "|": "||",
+}
+_BLANKS = ("Zs", "Cf", "Cc")  # categories of Unicode
 _DIRECTIVE_HELP = {
     "#define": "declare a variable: `int NAME = 5;`",
     "#use_xml": "remove the line: it has no meaning any more",
@@ -171,7 +202,14 @@ def read_directive(piece: Piece, start: int, word: str) -> None:
     assert name is not None
     text = name[0]
     fixes: tuple[Fix, ...] = ()
-    if text.replace(" ", "").replace("\t", "") == "#include":
+    help_text = _DIRECTIVE_HELP.get(text)
+    constant = _CONSTANT.match(word)
+    if constant is not None:
+        type_name = "int" if _INTEGER.fullmatch(constant[2]) else "float"
+        written = f"{type_name} {constant[1]} = {constant[2]};"
+        help_text = f"declare a variable: `{written}`"
+        fixes = (Fix(f"write `{written}`", (Edit(piece.span(start, start + constant.end()), written),), safe=False),)
+    elif text.replace(" ", "").replace("\t", "") == "#include":
         fixes = (Fix("write `#include`", (Edit(piece.span(start, start + len(text)), "#include"),)),)
     elif text not in _DIRECTIVE_HELP:
         fixes = (Fix("write `//`", (Edit(piece.span(start, start + 1), "//"),), safe=False),)
@@ -180,20 +218,27 @@ def read_directive(piece: Piece, start: int, word: str) -> None:
         start,
         start + len(text),
         text=excerpt(text),
-        help=_DIRECTIVE_HELP.get(text),
+        help=help_text,
         fixes=fixes,
     )
 
 
 def read_other(piece: Piece, start: int, word: str) -> str | None:
-    """The kind that was meant by characters which mean nothing; None if there is none to guess."""
+    """The kind that was meant by characters which mean nothing; None of those that cannot be seen."""
     end = start + len(word)
-    if word in ("&", "|"):
-        fix = Fix(f"write `{word * 2}`", (Edit(piece.span(start, end), word * 2),))
-        piece.report(UNEXPECTED_CHARACTER, start, end, text=word, help=f"write `{word * 2}`", fixes=(fix,))
-        return word * 2
+    if (sign := _TYPESET.get(word)) is not None:
+        fix = Fix(f"write `{sign}`", (Edit(piece.span(start, end), sign),))
+        piece.report(UNEXPECTED_CHARACTER, start, end, text=word, help=f"write `{sign}`", fixes=(fix,))
+        return sign
+    if word != "\ufeff" and all(category(letter) in _BLANKS for letter in word):
+        fix = Fix("write a blank", (Edit(piece.span(start, end), " "),))
+        piece.report(UNEXPECTED_CHARACTER, start, end, text=excerpt(word), help="write a blank", fixes=(fix,))
+        return None
     help_text = _HELP.get(word)
+    text, at = piece.anchor.source.text, piece.anchor.offset + start
+    if not text[text.rfind("\n", 0, at) + 1 : at].strip() and word in _FIRST_HELP:
+        help_text = _FIRST_HELP[word]
     if any(letter.isalpha() for letter in word):
         help_text = "names are made of the letters a to z and A to Z, digits, `_` and `$`"
     piece.report(UNEXPECTED_CHARACTER, start, end, text=excerpt(word), help=help_text)
-    return None
+    return "UNKNOWN"

@@ -27,6 +27,8 @@ from nddl_lang.syntax.codes import (
 )
 from nddl_lang.syntax.expectation import accepts, describe_expected, expected_kinds
 from nddl_lang.syntax.former import put_in_parentheses
+from nddl_lang.syntax.idioms import Idiom, find_idiom
+from nddl_lang.syntax.lexemes import excerpt
 from nddl_lang.syntax.misspelt import all_relations, meant_word
 from nddl_lang.syntax.nodes import BrokenStatement
 from nddl_lang.syntax.placement import break_statement
@@ -46,6 +48,7 @@ _PARTED = {("<", "="): "<=", (">", "="): ">=", ("!", "="): "!="}  # by blanks
 _VALUE_ENDS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", ")", "]", "}"))
 _LISTS = frozenset(("(", "SET"))
 _LITERALS = frozenset(("INT", "FLOAT", "STRING", "BOOL"))
+_DECLARING = frozenset(("class", "enum", "typedef", "predicate", "action", "GOAL"))
 _MODIFIERS = frozenset(("const", "constexpr", "static", "final", "var", "let"))
 _OPENERS = {")": "(", "]": "[", "}": "SET"}
 _OPEN = frozenset(("(", "[", "{", "SET"))
@@ -73,7 +76,10 @@ class Recovery:
         while "statement" not in GOTOS[states[depth]]:
             depth -= 1
         first = self._first_index(values[depth]) if depth < len(values) else index
-        self._is_quiet = self._was_complained_about(first, index)
+        idiom = find_idiom(self._b, first, index, self._open_block(values[:depth]) is not None)
+        self._is_quiet = idiom is None and self._was_complained_about(first, index)
+        if idiom is not None:
+            return self._give_up(states, values, depth, first, index, idiom)
         if (
             self._turn_comparison(first, index)
             or self._end_declaration(first, index)
@@ -227,11 +233,13 @@ class Recovery:
         return True
 
     def _leave_modifier_out(self, first: int, index: int) -> bool:
-        """Leave out the `const` of `const int x = 3;`, or another such word that begins a declaration."""
+        """Leave out the `const` of `const int x = 3;`, or any word before `class` and the like in its line."""
         b, kinds = self._b, self._kinds
-        if not first < index <= first + 2 or kinds[index] not in ("IDENT", "BASETYPE"):
+        if not first < index <= first + 2 or kinds[first] != "IDENT":
             return False
-        if b.texts[first] not in _MODIFIERS:
+        is_before_word = index == first + 1 and kinds[index] in _DECLARING and not self._is_first_in_line(index)
+        is_modifier = b.texts[first] in _MODIFIERS and kinds[index] in ("IDENT", "BASETYPE")
+        if not is_before_word and not is_modifier:
             return False
         gap = Span(b.anchor, b.starts[first], b.starts[first + 1])
         self._report(
@@ -264,7 +272,9 @@ class Recovery:
 
     # ---- giving up ----
 
-    def _give_up(self, states: list[int], values: list[Any], depth: int, first: int, index: int) -> int:
+    def _give_up(
+        self, states: list[int], values: list[Any], depth: int, first: int, index: int, idiom: Idiom | None = None
+    ) -> int:
         """Turn the statement that begins at lexeme `first` into a broken one and go on behind it."""
         b, kinds = self._b, self._kinds
         is_inside = self._open_block(values[:depth]) is not None
@@ -274,12 +284,18 @@ class Recovery:
             end += 1
         start = b.starts[first] if end > first else b.ends[first - 1] if first else 0
         finish = b.ends[end - 1] if end > first else start
-        node: BrokenStatement = break_statement(b, b.piece.span(start, finish))
+        span = b.piece.span(start, finish)
+        node: BrokenStatement = break_statement(b, span)
+        if idiom is not None:
+            b.piece.forget(UNEXPECTED_CHARACTER, span)
         if is_stray:
-            fix = Fix("remove the `}`", (Edit(b.at(index), ""),), safe=False)
-            self._report(STRAY_BRACE, index, text="}", fixes=(fix,))
+            run = b.piece.span(start, b.piece.length)  # of those that follow too
+            text = excerpt("".join(run.text.split()))
+            fix = Fix(f"remove the `{text}`", (Edit(run, ""),), safe=False)
+            if not self._is_quiet:
+                b.report(STRAY_BRACE, run, text=text, fixes=(fix,))
         else:
-            self._report_expected(states, first, index)
+            self._report_expected(states, first, index, idiom)
         del states[depth + 1 :]
         del values[depth:]
         states.append(GOTOS[states[depth]]["statement"])
@@ -313,18 +329,18 @@ class Recovery:
             fixes = (close_block(self._b, opener, index),) if better is None else ()
             self._report(UNCLOSED_BRACE, opener if better is None else better, text="{", fixes=fixes)
 
-    def _report_expected(self, states: list[int], first: int, index: int) -> None:
+    def _report_expected(self, states: list[int], first: int, index: int, idiom: Idiom | None) -> None:
         if self._is_quiet:
             return
         b, kinds = self._b, self._kinds
         expected = describe_expected(expected_kinds(states))
         found = describe_found(b, kinds, index)
-        help_text = advise(kinds, b.texts, first, index)
+        help_text = advise(kinds, b.texts, first, index) if idiom is None else idiom.help
         if index > 0 and (kinds[index] == END or (index > first and self._is_first_in_line(index))):
             span = b.piece.span(b.ends[index - 1], b.ends[index - 1])
         else:
             span = b.at(index)
-        fix = rewrite(b, first, index)
+        fix = rewrite(b, first, index) if idiom is None or idiom.fix is None else idiom.fix
         fixes = (fix,) if fix is not None else ()
         if fix is not None and help_text is None:
             help_text = fix.title

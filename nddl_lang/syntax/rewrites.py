@@ -47,9 +47,9 @@ def rewrite(b: Builder, first: int, index: int) -> Fix | None:
             return Fix(f"write `{text}`", (Edit(path, text),)) if "\n" not in text else None
         case "IDENT" if kind == "STRING" and index == first + 1 and b.texts[first] in _INCLUDES:
             return Fix("write `#include`", (Edit(b.at(first), "#include"),))
-        case "IDENT" if before == ["IDENT", "IDENT"] and kind == "::" and b.texts[first] == "rule":
+        case "IDENT" if before == ["IDENT", "IDENT"] and kind == "::":
             gap = Span(b.anchor, b.starts[first], b.starts[first + 1])
-            return Fix("remove `rule`", (Edit(gap, ""),))
+            return Fix(f"remove `{b.texts[first]}`", (Edit(gap, ""),), safe=b.texts[first] == "rule")
         case "IDENT" if before == ["IDENT", "IDENT"] and b.texts[first] == "rule" and kinds[index : index + 3] == _RULE:
             gap = Span(b.anchor, b.starts[first], b.starts[first + 1])
             return Fix("write `::` and no `rule`", (Edit(gap, ""), Edit(b.at(index), "::")))

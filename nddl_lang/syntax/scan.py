@@ -7,6 +7,7 @@ import re
 
 from nddl_lang.syntax.braces import (
     close_body,
+    end_of_strays,
     is_surplus,
     lacks_brace,
     leave_out,
@@ -35,6 +36,7 @@ from nddl_lang.syntax.lexemes import (
     string_end,
 )
 from nddl_lang.syntax.piece import Piece
+from nddl_lang.syntax.separators import opens_block, separates
 from nddl_lang.syntax.words import KINDS
 from nddl_lang.text.diagnostic import Edit, Fix
 from nddl_lang.text.source import Anchor, Source
@@ -50,7 +52,7 @@ _MASTER = re.compile(
     | (/\*)
     | (\#include(?![A-Za-z0-9_$])|::|==|!=|<=|>=|&&|\|\||[;{}()\[\],.=<>+\-*/!:])
     | ("[^"\\]*+(?:\\.[^"\\]*+)*+")
-    | ('[^'\n]*+')
+    | ('[^'\n]*+'|[“”„«‘][^\n"“”„«»‘’]*+[”“»’])
     | (\#[^\n]*+)
     | (["']|[^A-Za-z0-9_$ \t\r\n\f;{}()\[\],.=<>+\-*/!:"'\#]++)
     )""",
@@ -65,7 +67,8 @@ _TOP_LEVEL = frozenset(("class", "enum", "typedef", "GOAL"))
 _MEMBERS = frozenset(("predicate", "action"))
 _WATCHED_WORDS = _TOP_LEVEL | _MEMBERS | {"if", "FORMER", "super"}
 _BRACKETS = frozenset("{}()[];")
-_WATCHED_SIGNS = _BRACKETS | {"::", "#include"}
+_WATCHED_SIGNS = _BRACKETS | {"::", ":", "#include"}
+_AFTER_HEAD = (["{"], ["="], ["-"], [":"])  # of a rule, where no statement begins
 _BEYOND = 1 << 62
 _LONGEST_INDENT = 200
 
@@ -208,6 +211,10 @@ class Scanner:
         if kind == "(" and len(self._brackets.open) > 1 and kinds[0] == "class" and piece.texts[-1] == piece.texts[1]:
             if self._indent(piece.starts[-1]) >= 0:
                 close_body(piece, self._brackets, self._base, len(kinds) - 1)
+        if kind == ";" and self._brackets.innermost == "(" and separates(piece, self._source.text, self._base, start):
+            return ","
+        if kind == ":":
+            return "{" if opens_block(piece, self._brackets, self._source.text, self._base, start) else kind
         if kind == "::":
             if len(kinds) > 1 and kinds[-1] == "IDENT" and self._begins_statement(piece.starts[-1]):
                 for column in (kinds, piece.texts, piece.starts, piece.ends):
@@ -215,12 +222,15 @@ class Scanner:
                 return self._cut(finish)
         elif kind == "#include":
             return self._read_include(start, finish)
-        elif self._brackets.closes_statement(kind, kinds[-1] if kinds else None):
+        elif self._brackets.closes_statement(kind, kinds[-1] if kinds and not self._is_head_of_rule() else None):
             if kind == "}" and kinds and self._is_surplus(start, finish):
                 return ""
-            if kinds[1:3] == ["::", "IDENT"] and kinds[3:4] != ["{"] and self._lacks_brace(finish):
+            if kinds[1:3] == ["::", "IDENT"] and kinds[3:4] not in _AFTER_HEAD and self._lacks_brace(finish):
                 return kind
             self._end = finish
+            if kind == "}" and not kinds:
+                self._end, seen = end_of_strays(self._source.text, finish)
+                piece.reach = max(piece.reach, seen + 1)
             if self._has_if:
                 # The condition may have an `else` branch.
                 ahead = _ELSE_AHEAD.match(self._source.text, finish)
@@ -237,6 +247,10 @@ class Scanner:
         if kinds[-1:] == ["{"]:
             self._doubled = len(kinds)
         return "SET" if self._brackets.innermost == "SET" else kind
+
+    def _is_head_of_rule(self) -> bool:
+        """Whether the next `{` opens the body of a rule, whatever stands between."""
+        return not self._brackets.open and self._piece.kinds[1:3] == ["::", "IDENT"]
 
     def _is_surplus(self, start: int, finish: int) -> bool:
         """Whether the `}` at `start` closes the piece too early; then it is left out."""

@@ -44,6 +44,7 @@ from nddl_lang.syntax.nodes import (
     VariableDecl,
 )
 from nddl_lang.syntax.placement import CLASS, CONSTRUCTOR, PREDICATE, RULE, Block, EmptyStatement, statements_of
+from nddl_lang.syntax.words import BASE_TYPES
 from nddl_lang.text.diagnostic import Edit, Fix
 from nddl_lang.text.source import Span
 
@@ -103,11 +104,11 @@ def variables(b: Builder, v: list[Any]) -> VariableDecl:
     type_name: Identifier = v[0]
     docs = b.piece.docs
     doc = docs.get(type_name.span.start) if docs else None
-    return VariableDecl(type_name, tuple(v[1]), False, doc, b.span(type_name, v[2]))
+    return VariableDecl(type_name, _declarators(b, type_name, v[1]), False, doc, b.span(type_name, v[2]))
 
 
 def filtered_variables(b: Builder, v: list[Any]) -> VariableDecl:
-    return VariableDecl(v[1], tuple(v[2]), True, _doc(b, v[0]), b.span(v[0], v[3]))
+    return VariableDecl(v[1], _declarators(b, v[1], v[2]), True, _doc(b, v[0]), b.span(v[0], v[3]))
 
 
 def bare_declarator(b: Builder, v: list[Any]) -> Declarator:
@@ -123,14 +124,24 @@ def declarator(b: Builder, v: list[Any]) -> Declarator:
 
 
 def call_declarator(b: Builder, v: list[Any]) -> Declarator:
-    name = b.name(v[0])
-    value: Expr = v[2]
-    span = b.span(v[0], v[3])
-    mend = f"{name.name} = {value.span.text}"
-    fix = Fix(f"write `{name.name} = ...`", (Edit(span, mend),))
-    b.report(CALL_INITIALISER, span, name=name.name, help=f"write `{name.name} = ...`", fixes=(fix,))
-    b.waiting.pop(value, None)
-    return Declarator(name, value, True, span)
+    b.waiting.pop(v[2], None)
+    return Declarator(b.name(v[0]), v[2], True, b.span(v[0], v[3]))
+
+
+def _declarators(b: Builder, type_name: Identifier, declarators: list[Declarator]) -> tuple[Declarator, ...]:
+    """The declarators of one type, those in the form of a call reported."""
+    return tuple(_without_call(b, type_name, one) if one.call_form else one for one in declarators)
+
+
+def _without_call(b: Builder, type_name: Identifier, declarator: Declarator) -> Declarator:
+    name, value = declarator.name.name, declarator.initialiser
+    assert value is not None
+    mend = f"{name} = {value.span.text}"
+    is_plain = type_name.name in BASE_TYPES
+    help_text = "" if is_plain else f"; for an object of a class, `{name} = new {type_name.name}({value.span.text})`"
+    fix = Fix(f"write `{name} = ...`", (Edit(declarator.span, mend),), safe=is_plain)
+    b.report(CALL_INITIALISER, declarator.span, name=name, help=f"write `{name} = ...`{help_text}", fixes=(fix,))
+    return declarator if is_plain else Declarator(declarator.name, None, True, declarator.span)
 
 
 def first_parameter(b: Builder, v: list[Any]) -> list[FormalParameter]:

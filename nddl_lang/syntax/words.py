@@ -66,6 +66,7 @@ ELSEWHERE = {
     "coincides": "equals",
     "then": "meets",
     "for": "foreach",
+    "when": "if",
     "fluent": "predicate",
     "type": "typedef",
     "struct": "class",

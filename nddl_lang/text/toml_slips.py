@@ -9,6 +9,7 @@ from nddl_lang.text.toml_places import HEADER
 
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
 _WORD = re.compile(r"[A-Za-z_/][^\s,;#\]}\"']*")
+_DIGITS = re.compile(r"[0-9]+(?:\.[0-9]+)?\Z")
 _TRUTHS = {"true": "true", "yes": "true", "on": "true", "false": "false", "no": "false", "off": "false"}
 _OPEN_TEXT = "the quotes of a text close in its line"
 _COMMENT = "a comment begins with `#`"
@@ -74,7 +75,9 @@ def _value(source: Source, at: int) -> _Advice | None:
             return _instead(source, at, at + word.end(), truth, "truth values are `true` and `false`")
         if word[0].lower() in ("null", "none", "nil"):
             return "what has no value is left out", ()
-        return _instead(source, at, at + word.end(), f'"{word[0]}"', "a text stands in quotes")
+        return _instead(
+            source, at, at + word.end(), f'"{word[0]}"', "a text stands in quotes; a number has digits only"
+        )
     if rest.startswith("="):
         return "a value is given with one `=`", (_without(source, at),)
     if rest.startswith("("):
@@ -90,6 +93,11 @@ def _end(source: Source, at: int) -> _Advice | None:
         return "a line of TOML ends without `;`", (_without(source, at),)
     if following == ",":
         return _LIST, ()
+    if following == "%" and (number := _DIGITS.search(source.text, source.text.rfind("\n", 0, at) + 1, at)):
+        share = f"{float(number[0]) / 100:g}"
+        return _instead(source, number.start(), at + 1, share, f"a share is a number from 0 to 1: `{share}`")
+    if before.isdigit() and following.isalpha():
+        return "a number has no unit behind it", ()
     if following == "." and before.isdigit():
         return _instead(source, at, at + 1, ".0", "digits follow the point of a number")
     if following.isdigit() and before == "0":

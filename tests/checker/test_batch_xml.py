@@ -73,12 +73,12 @@ def test_every_component_is_converted() -> None:
 @pytest.mark.parametrize(
     ("old", "new", "line", "reason"),
     [
-        ("<Min>-0.7</Min>", "<Min>low</Min>", 9, "`Min` is `low`, which is no number that it can be"),
-        ("<Max>0.7</Max>", "", 1, "`Min` and `Max` are missing"),
+        ("<Min>-0.7</Min>", "<Min>low</Min>", 9, "`Min` is `low`"),
+        ("<Max>0.7</Max>", "", 7, "`Max` is missing"),
         ("ReSeededUniformRandom", "ReSeedUniformRandom", 1, "there is no component `ReSeedUniformRandom`"),
-        ("<Sampler component", "<Smapler component", 12, "mismatched tag"),
+        ("<Sampler component", "<Smapler component", 7, "mismatched tag"),
         ('name="errorRateX" ', "", 1, "a `SampledParameter` needs a `name`"),
-        ("<Max>0.7</Max>", "<Max>-0.9</Max>", 1, "`Min` -0.7 is above `Max` -0.9"),
+        ("<Max>0.7</Max>", "<Max>-0.9</Max>", 9, "`Min` -0.7 is above `Max` -0.9"),
     ],
 )
 def test_a_mistake_is_named_where_it_stands(old: str, new: str, line: int, reason: str) -> None:

@@ -5,26 +5,15 @@
 
 import json
 import shutil
-from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
 from nddlc.main import run
+from tests.cli.habits import HABITS, Mistake
 
 ROOT = Path(__file__).parents[2] / "models"
 Captured = pytest.CaptureFixture[str]
-
-
-@dataclass(frozen=True)
-class Mistake:
-    """`right`, once in a file, is typed as `wrong`; the message is in the line with `told`, and says `help`."""
-
-    file: str
-    right: str
-    wrong: str
-    help: str
-    told: str = ""  # the line of the message, where it is another than the one that was changed
 
 
 MISTAKES = (
@@ -176,6 +165,7 @@ MORE_MISTAKES = (
         'predicat = "Transit"\nstart = [5, 60]',
         "`predicate`",
     ),
+    *HABITS,
 )
 
 

@@ -1,8 +1,10 @@
 """Read a solver's configuration: XML or TOML in, a configuration and diagnostics out."""
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
 
 from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Source
 from runtime.solver.configuration.codes import (
     BOTH_LEVELS,
@@ -59,7 +61,7 @@ def read_configuration(source: Source) -> tuple[Configuration | None, tuple[Diag
     root, complaints = read_toml(source) if source.name.endswith(".toml") else read_xml(source)
     if root is None:
         return None, tuple(complaints)
-    reading = _Reading(complaints)
+    reading = _Reading(complaints, is_toml=source.name.endswith(".toml"))
     configuration = reading.solver(root)
     refused = any(complaint.severity is Severity.ERROR for complaint in reading.complaints)
     return None if refused else configuration, tuple(reading.complaints)
@@ -68,8 +70,9 @@ def read_configuration(source: Source) -> tuple[Configuration | None, tuple[Diag
 class _Reading:
     """Makes a configuration of elements and gathers what is wrong with them."""
 
-    def __init__(self, complaints: list[Diagnostic]) -> None:
+    def __init__(self, complaints: list[Diagnostic], *, is_toml: bool) -> None:
         self.complaints = complaints
+        self.is_toml = is_toml
 
     def solver(self, root: Element) -> Configuration:
         if root.tag != "Solver":
@@ -88,10 +91,17 @@ class _Reading:
         named = element.find("component")
         component = named.value if named else element.tag
         kind = MANAGER_NAMES.index(component) if component in MANAGER_NAMES else NONE
-        if kind == NONE:
-            self.complaints.append(UNKNOWN_MANAGER.at((named or element).span, name=component))
         known = {"component", "label", "defaultPriority"} | ({"order"} if kind == RESOURCE_THREAT else set())
-        self.spare(element, known)
+        if component:
+            if kind == NONE:
+                place, help_ = (named or element).span, _help(component, MANAGER_NAMES)
+                self.complaints.append(UNKNOWN_MANAGER.at(place, name=component, help=help_))
+            self.spare(element, known)
+        else:
+            names = {attribute.name: attribute.span for attribute in element.attributes}
+            misspelt = nearest("component", names)
+            place, help_ = names.get(misspelt or "", element.span), _help(misspelt or "", ("component", *MANAGER_NAMES))
+            self.complaints.append(MISSING_ATTRIBUTE.at(place, element="manager", name="component", help=help_))
         default = self.number(element, "defaultPriority", WORST_PRIORITY)
         filters = []
         handlers: list[FlawHandler] = []
@@ -113,7 +123,7 @@ class _Reading:
         component = element.find("component")
         name = component.value if component else "FlawFilter"
         if name not in FILTERS:
-            self.complaints.append(UNKNOWN_FILTER.at((component or element).span, name=name))
+            self.complaints.append(UNKNOWN_FILTER.at((component or element).span, name=name, help=_help(name, FILTERS)))
         is_horizon = name in ("HorizonFilter", "HorizonVariableFilter")
         self.spare(element, _MATCH_NAMES | ({"policy"} if is_horizon else set()))
         for child in element.children:
@@ -125,12 +135,14 @@ class _Reading:
         named = element.find("component")
         name = named.value if named else STANDARD.get(kind, "")
         if name not in HANDLERS:
-            self.complaints.append(UNKNOWN_HANDLER.at((named or element).span, name=name))
+            help_ = _help(name, _handlers_of(kind) or HANDLERS)
+            self.complaints.append(UNKNOWN_HANDLER.at((named or element).span, name=name, help=help_))
             return
         if HANDLERS[name][0] != kind:
             if kind != NONE:
                 span = (named or element).span
-                self.complaints.append(MISPLACED_HANDLER.at(span, name=name, manager=MANAGER_NAMES[kind]))
+                help_ = _help("", _handlers_of(kind))
+                self.complaints.append(MISPLACED_HANDLER.at(span, name=name, manager=MANAGER_NAMES[kind], help=help_))
             return
         self.spare(element, _MATCH_NAMES | {"priority", "maxChoices"} | _HANDLER_ATTRIBUTES.get(name, set()))
         guards, parent_guards, values = [], [], []
@@ -181,7 +193,9 @@ class _Reading:
         except ValueError:
             value = -1.0
         if not 0.0 <= value <= WORST_PRIORITY:
-            self.complaints.append(NOT_A_NUMBER.at(attribute.span, name=name, most=int(WORST_PRIORITY)))
+            help_ = f"a whole number; 0 is the best, {int(WORST_PRIORITY)} the worst" if "riority" in name else None
+            complaint = NOT_A_NUMBER.at(attribute.span, name=self.shown(name), most=int(WORST_PRIORITY), help=help_)
+            self.complaints.append(complaint)
             return default
         return value
 
@@ -205,7 +219,33 @@ class _Reading:
         """Complain of attributes that nobody reads: they are mostly misspelt."""
         for attribute in element.attributes:
             if attribute.name not in known:
-                self.complaints.append(UNKNOWN_ATTRIBUTE.at(attribute.span, name=attribute.name))
+                shown = [self.shown(name) for name in sorted(known) if not (self.is_toml and "-" in name)]
+                name = self.shown(attribute.name)
+                self.complaints.append(UNKNOWN_ATTRIBUTE.at(attribute.span, name=name, help=_help(name, shown)))
+
+    def shown(self, name: str) -> str:
+        """An attribute as the file writes it: `maxChoices` of XML is `max_choices` in TOML."""
+        return re.sub(r"[A-Z]", lambda letter: f"_{letter[0].lower()}", name) if self.is_toml else name
+
+
+def _handlers_of(kind: int) -> list[str]:
+    """The handlers that mend flaws of a manager."""
+    return [name for name, (mended, *_) in HANDLERS.items() if mended == kind]
+
+
+def _help(name: str, known: Iterable[str]) -> str:
+    """Which of the known words was meant, else all of them."""
+    words = list(known)
+    within = [word for word in words if name and name.casefold() in word.casefold()]
+    meant = nearest(name, words) or (within[0] if len(within) == 1 else None) or _of_same_parts(name, words)
+    return f"did you mean `{meant}`?" if meant else "there are: " + ", ".join(f"`{word}`" for word in words)
+
+
+def _of_same_parts(name: str, words: list[str]) -> str | None:
+    """The word that has all parts of `name`: `ResourceManager` is short for `ResourceThreatManager`."""
+    parts = re.findall("[A-Z][a-z]+", name)
+    found = [word for word in words if parts and all(part in word for part in parts)]
+    return found[0] if len(found) == 1 else None
 
 
 def _match(element: Element) -> Match:

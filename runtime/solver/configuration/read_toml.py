@@ -1,5 +1,6 @@
 """TOML of a solver's configuration (docs/plan.md): text in, the elements that the XML would have out, with spans."""
 
+import re
 import tomllib
 from collections.abc import Iterator
 
@@ -12,6 +13,7 @@ from runtime.solver.configuration.codes import NOT_READABLE, UNKNOWN_ELEMENT
 from runtime.solver.configuration.element import Attribute, Element, stretch
 
 _Table = dict[str, object]
+_TABLE = re.compile(r"^[ \t]*\[\[?[ \t]*(?:manager|filter)\b", re.MULTILINE)
 
 
 def read_toml(source: Source) -> tuple[Element | None, list[Diagnostic]]:
@@ -21,6 +23,11 @@ def read_toml(source: Source) -> tuple[Element | None, list[Diagnostic]]:
     except tomllib.TOMLDecodeError as error:
         return None, [not_toml(NOT_READABLE, source, str(error))]
     return _Converter(source).convert(table)
+
+
+def is_solver_toml(text: str) -> bool:
+    """Whether a text in TOML, well-formed or not, configures a solver: its tables are managers or filters."""
+    return _TABLE.search(text) is not None
 
 
 class _Converter:

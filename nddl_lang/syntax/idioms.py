@@ -1,0 +1,215 @@
+"""Statements as C, Java, Python and PDDL write them: recognised by their words, with how NDDL says the same."""
+
+import re
+from typing import NamedTuple
+
+from nddl_lang.syntax.builder import Builder
+from nddl_lang.syntax.tables import END
+from nddl_lang.syntax.words import BASE_TYPES, GOALS, RELATIONS, RESERVED
+from nddl_lang.text.diagnostic import Edit, Fix
+
+_MOST_WORDS = 40  # of a statement that are looked at
+_N = rf"(?!(?:{'|'.join(RESERVED - {'this', 'object'})})\b)[A-Za-z_$][\w$]*"
+_PATH = rf"{_N}(?: \. {_N})*"
+_NUMBER = r"[-+]?(?:\.?\d\S*|inff?)"
+_VALUE = f"(?:{_PATH}|{_NUMBER})"
+_TYPE = f"(?:{'|'.join(BASE_TYPES)})"
+_RELATION = f"(?:{'|'.join(sorted(RELATIONS, key=len, reverse=True))})"
+_ASKS = f"(?:{'|'.join(GOALS)}|{_RELATION[3:]}"
+
+
+class Idiom(NamedTuple):
+    """What to say of a statement that was recognised, and how to write the whole of it, where that is plain."""
+
+    help: str
+    fix: Fix | None
+
+
+# A pattern of the statement's lexemes with a blank between each two; what to say; the whole statement in NDDL.
+_ROWS: tuple[tuple[str, str, str], ...] = (
+    # Values that change.
+    (
+        rf"({_PATH}) (?:\+ ?\+|- -) ;",
+        r"no value changes: state another, as in `next == \1 + 1`",
+        "",
+    ),
+    (
+        rf"({_PATH}) ([-+*/]) = (.*) ;",
+        r"no value changes: state another, as in `next == \1 \2 \3`",
+        "",
+    ),
+    (r"return (.*);", "a statement says what holds: remove `return`", r"\1;"),
+    # Words and signs of expressions.
+    (r".*\S \* \* \S.*", "a power is the function `pow(a, b)`", ""),
+    (r".*\| (\S.*?) \|.*", r"write `abs(\1)`", ""),
+    (rf".*\( {_TYPE} \) [\w(].*", "there are no casts: a float is rounded by `ceil(x)` or `floor(x)`", ""),
+    (rf".*[^\w\s] {_TYPE} \(.*", "there are no casts: a float is rounded by `ceil(x)` or `floor(x)`", ""),
+    (r".* (\d+) : (\d+)\b.*", r"a time is a number of ticks, without `:`", ""),
+    # Prefix notation.
+    (
+        rf"\( = (?:\? )?({_VALUE}) (?:\? )?({_VALUE}) \) ;?",
+        r"an operator stands between its operands: `\1 == \2`",
+        r"\1 == \2;",
+    ),
+    (
+        rf"\( not \( = (?:\? )?({_VALUE}) (?:\? )?({_VALUE}) \) \) ;?",
+        r"an operator stands between its operands: `\1 != \2`",
+        r"\1 != \2;",
+    ),
+    (
+        rf"\( ([<>]=?) (?:\? )?({_VALUE}) (?:\? )?({_VALUE}) \) ;?",
+        r"an operator stands between its operands: `\2 \1 \3`",
+        r"\2 \1 \3;",
+    ),
+    (
+        r"\( (?:=|<|>|<=|>=|not|and|or|forall|when) .*",
+        "an operator stands between its operands: `a == b`, `a != b`, `a && b`",
+        "",
+    ),
+    (
+        r"\( (?:define|: ?\w+)\b.*",
+        "this is PDDL; NDDL declares `Class name = new Class();` and `predicate Name { }`",
+        "",
+    ),
+    # Declarations.
+    (rf"\? ({_N}) - (\w+) ;", r"the type stands first: `\2 \1;`", r"\2 \1;"),
+    (rf"({_N}) : ({_TYPE}) ;|({_TYPE}) : ({_N}) ;", r"the type stands first: `\2\3 \1\4;`", r"\2\3 \1\4;"),
+    (rf"(?:void|def|fn|function) ({_N}) \( (.*) \) ;", r"what may hold is a predicate: `predicate \1 { }`", ""),
+    (rf"void ({_N}) \( (.*) \) \{{", r"a constructor has no type: remove `void`", ""),
+    (
+        rf"(?:def|fn|function) ({_N}) \(.*",
+        r"members of a class are variables, predicates, `predicate Name { }`, and constructors, `Class(int a) { }`",
+        "",
+    ),
+    (
+        rf"({_N}) \( .*\) : (?:super|{_N}) \(.*",
+        r"the constructor of the base class is called first in the body: `{ super(...); }`",
+        "",
+    ),
+    (r"super \(.*\) \. .*", "the constructor of the base class is called by `super(...);`", ""),
+    (
+        rf"({_TYPE}|{_N}) ({_N}) \[ ({_NUMBER}),? ({_NUMBER}) \] ;",
+        r"a domain stands after `=`: `\1 \2 = [\3 \4];`",
+        r"\1 \2 = [\3 \4];",
+    ),
+    (rf"(?:{_TYPE}|{_N}) (?:{_N} \[|\[ ?\S* ?\] {_N}\b).*", "there are no arrays: declare a variable for each", ""),
+    (
+        rf"({_N}) [*&] ({_N}) (= new .*);|({_TYPE}) [*&] ({_N}.*);",
+        r"there are no pointers, and no `*`: `\1\4 \2\5`",
+        r"\1\4 \2\5 \3;",
+    ),
+    (rf"(.*)\b({_N}) \. new \((.*)", r"an object is made by `new \2(...)`", r"\1new \2(\3"),
+    (
+        rf"(.*(?:=|in|==)) \( ({_NUMBER}) , ({_NUMBER}) \) ;",
+        r"an interval is written `[\2 \3]`",
+        r"\1 [\2 \3];",
+    ),
+    (
+        rf"(.*(?:=|in|==)) (?:\[ )?({_NUMBER}) (?:to|\. \.|\. \. \.|-|:|;) ({_NUMBER}) (?:\] )?;",
+        r"an interval is written `[\2 \3]`",
+        r"\1 [\2 \3];",
+    ),
+    (rf"enum {_N} \{{? ?.*=.*", "an enum lists names, without numbers: `enum E { a, b }`", ""),
+    (
+        rf"typedef ({_N}) ({_TYPE}) (\[.*\]|\{{.*\}}) ;|typedef ({_TYPE}) ({_N}) (\[.*\]|\{{.*\}}) ;",
+        r"the name stands last: `typedef \2\4 \3\6 \1\5;`",
+        r"typedef \2\4 \3\6 \1\5;",
+    ),
+    (
+        rf"(?:.*\bnew {_N}|super|(?!(?:if|while|for|foreach|{_ASKS}) )(?:{_TYPE}|{_N})(?: {_N} =)?(?: new {_N})?)"
+        rf" \( {_N} = .*",
+        "arguments stand in the order of the parameters, without names",
+        "",
+    ),
+    # Tokens.
+    (
+        rf"({_ASKS}) \( new ({_PATH} {_N}) \) ;",
+        r"the token is made without `new`: `\1(\2);`",
+        r"\1(\2);",
+    ),
+    (rf"new ({_ASKS}) \((.*) ;", r"the token is made without `new`: `\1(\2;`", r"\1(\2;"),
+    (rf"({_N}) = ({_ASKS}) \( ({_PATH}) \) ;", r"the token is named inside: `\2(\3 \1);`", r"\2(\3 \1);"),
+    (rf"({_ASKS}) \( ({_PATH}) \( ({_N}) \) \) ;", r"the token is named so: `\1(\2 \3);`", r"\1(\2 \3);"),
+    (
+        rf"(?:{_ASKS}) \( {_PATH} ({_N}) ?,? [^)]*=.*",
+        r"what holds of the token is stated after it: `\1.start == 20;`",
+        "",
+    ),
+    (
+        rf"({_N} |)({_RELATION}) ({_N}) (?:{_N} )?({_NUMBER})(?: {_N})? ;",
+        r"a distance stands after the relation: `\1\2 [\4 \4] \3;`",
+        "",
+    ),
+    # Files and comments.
+    (rf"from ({_N}) import.*|import ({_N}) ;?", r'a file is included by `#include "\1\2.nddl"`', ""),
+    (r'"" ".*', "a comment begins with `//`, one that editors show with `///`", ""),
+    (r"close ;", "write `close();`", "close();"),
+    (r"otherwise \{", "write `else`", ""),
+    (rf"({_N} :: {_N}) ([^{{]*[^{{\w ][^{{]*) \{{", r"a rule is written `\1 { }`, without `\2`", ""),
+    (r"((?:[-=:>] ?)+) \{", r"a rule is written `Class::predicate { }`, without `\1`", ""),
+)
+_TABLE = tuple((re.compile(pattern, re.DOTALL), help_, written) for pattern, help_, written in _ROWS)
+_TIDY = (
+    (re.compile(r"([-=]) >"), r"\1>"),
+    (re.compile(r" ?(\.|::) ?"), r"\1"),
+    (re.compile(r" ([;,)\]])"), r"\1"),
+    (re.compile(r"([(\[]) "), r"\1"),
+)
+_CALL = re.compile(r"(\w) \(")
+_PROSE = 4  # names in a row that are a sentence
+
+
+def find_idiom(b: Builder, first: int, index: int, is_inside: bool) -> Idiom | None:
+    """What the statement that begins at the lexeme `first` is in another language; None where it is none.
+
+    The parser could not go on with the lexeme `index`; `is_inside`: the statement stands in a block.
+    """
+    if b.kinds[first] in ("}", END):
+        return None
+    last = first
+    ends = ("}", END) if b.kinds[first] == "enum" else (";", "{", END)
+    while b.kinds[last] not in ends and last - first < _MOST_WORDS:
+        if last >= index > first and _begins_line(b, last):
+            break
+        last += 1
+    is_whole = b.kinds[last] in (";", "{", "}")
+    text = " ".join(b.texts[first : last + is_whole])
+    token = re.fullmatch(rf"({_N} \. {_PATH}) ({_N}) ;", text)
+    if token is not None:
+        verb = "any" if is_inside else "goal"
+        written = _tidied(token.expand(rf"{verb}(\1 \2);"))
+        return Idiom(f"a token is asked for by name: `{written}`", _fix(b, first, last, written))
+    if _is_prose(b, first, index):
+        return Idiom("a comment begins with `//`", None)
+    for pattern, help_, written in _TABLE:
+        match = pattern.fullmatch(text)
+        if match is not None:
+            fix = _fix(b, first, last, _tidied(match.expand(written))) if written and b.kinds[last] == ";" else None
+            return Idiom(_tidied(match.expand(help_)), fix)
+    return None
+
+
+def _is_prose(b: Builder, first: int, index: int) -> bool:
+    """Whether the words from `first` on, at least up to `index`, are a sentence and no statement."""
+    last = first
+    while b.kinds[last] != END and b.texts[last][:1].isalpha():
+        last += 1
+    if last - first < _PROSE or index < first or index > last:
+        return False
+    return b.kinds[first : first + _PROSE - 1].count("IDENT") == _PROSE - 1
+
+
+def _begins_line(b: Builder, at: int) -> bool:
+    offset = b.anchor.offset
+    return "\n" in b.anchor.source.text[offset + b.ends[at - 1] : offset + b.starts[at]]
+
+
+def _fix(b: Builder, first: int, last: int, written: str) -> Fix:
+    return Fix(f"write `{written}`", (Edit(b.span(first, last), written),), safe=False)
+
+
+def _tidied(text: str) -> str:
+    """`text` without the blanks between lexemes that nobody writes."""
+    for pattern, replacement in _TIDY:
+        text = pattern.sub(replacement, text)
+    return " ".join(_CALL.sub(r"\1(", text).split())

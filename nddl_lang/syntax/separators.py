@@ -1,0 +1,80 @@
+"""See, while a piece is cut from the text, a `;` that was meant as `,` and a `:` that was meant as `{`.
+
+Taken as they stand, the piece would end too early, or a block would never begin. All offsets are absolute.
+"""
+
+import re
+
+from nddl_lang.syntax.braces import lacks_brace
+from nddl_lang.syntax.brackets import Brackets
+from nddl_lang.syntax.codes import EXPECTED
+from nddl_lang.syntax.piece import Piece
+from nddl_lang.text.diagnostic import Edit, Fix
+
+_LOOPS = ("for", "while")
+_REST = re.compile(r'[^\n;(){}="]*(?:;[^\n;(){}="]*)*+(\))?')
+_REST_OF_LOOP = re.compile(r"[^\n{}]*(\))?")
+_REST_OF_LINE = re.compile(r"[ \t]*(?://[^\n]*)?(?:\n|\Z)\s*+([{\"])?")
+_MOST_LEXEMES, _FARTHEST = 200, 1000  # of one call, so that a long line stays quick to read
+_HEADS = ("if", "foreach", "while", "for")
+
+
+def separates(piece: Piece, text: str, base: int, start: int) -> bool:
+    """Whether the `;` at `start`, in parentheses, stands between arguments, `f(a; b);`, or in the head of a loop."""
+    head = _before_parenthesis(piece.kinds)
+    if head is None or piece.kinds[head] not in ("IDENT", "foreach", "super"):
+        return False
+    is_loop = piece.texts[head] in _LOOPS
+    rest = (_REST_OF_LOOP if is_loop else _REST).match(text, start + 1, start + 1 + _FARTHEST)
+    assert rest is not None
+    piece.reach = max(piece.reach, rest.end() + 1)
+    if is_loop:
+        return text.rfind(")", start, rest.end()) >= 0
+    if rest[1] is None:
+        return False
+    if ";" in piece.texts[head:]:
+        return True  # told with the first of them
+    at = start - base
+    signs = [place - base for place in range(start, rest.end()) if text[place] == ";"]
+    fix = Fix("write `,`", tuple(Edit(piece.span(place, place + 1), ",") for place in signs))
+    help_ = "arguments are separated by commas: write `,`"
+    piece.report(EXPECTED, at, at + 1, expected="`,`", found="`;`", help=help_, fixes=(fix,))
+    return True
+
+
+def opens_block(piece: Piece, brackets: Brackets, text: str, base: int, start: int) -> bool:
+    """Whether the `:` at `start` ends the head of a block as in Python; then it counts as a `{`.
+
+    Nothing may follow it in its line, and a `}` must end the lines after it.
+    """
+    kinds = piece.kinds
+    head = _before_parenthesis(kinds[:-1]) if kinds[-1:] == [")"] else None
+    is_condition = head is not None and kinds[head] in _HEADS
+    is_class = kinds[:1] == ["class"] and len(brackets.open) == 0
+    if not is_condition and not is_class and kinds[-1:] != ["else"] and kinds[1:] != ["::", "IDENT"]:
+        return False
+    following = _REST_OF_LINE.match(text, start + 1)
+    line = text.rfind("\n", 0, start) + 1
+    if following is None or following[1] is not None:
+        return False
+    piece.reach = max(piece.reach, following.end() + 1)
+    before = text[line:start]
+    if not lacks_brace(piece, text, start + 1, len(before) - len(before.lstrip(" \t"))):
+        return False
+    brackets.open.append("{")
+    if not (is_class and ")" in kinds):  # what stands in parentheses is told first
+        at = start - base
+        fix = Fix("write `{`", (Edit(piece.span(at, at + 1), " {"),))
+        help_ = "a block stands in braces"
+        piece.report(EXPECTED, at, at + 1, expected="`{`", found="`:`", help=help_, fixes=(fix,))
+    return True
+
+
+def _before_parenthesis(kinds: list[str]) -> int | None:
+    """The lexeme before the parenthesis that is still open at the end of `kinds`, if it is near."""
+    depth = 0
+    for at in range(len(kinds) - 1, max(0, len(kinds) - _MOST_LEXEMES), -1):
+        depth += {")": 1, "(": -1}.get(kinds[at], 0)
+        if depth < 0:
+            return at - 1
+    return None
