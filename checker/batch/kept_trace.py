@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from runtime.determined.told import StoredKind, StoredObservations
-from runtime.executive.events import EventLog, EventRun
+from runtime.executive.event_parts import EventRun
+from runtime.executive.events import EventLog
 from runtime.executive.outcome import Event
 
 _NUMBERS = ("indices", "ticks", "rows", "causes")

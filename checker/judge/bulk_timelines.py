@@ -11,7 +11,7 @@ from checker.judge.columns import TEXT, Array, Column, distinct
 from checker.judge.tables import Tables
 from compiler.program import END, OBJECT, START, PredicateCode
 from runtime.executive.columns import PublishedColumns, TokenColumns
-from runtime.executive.events import EventColumns
+from runtime.executive.event_parts import EventColumns
 from runtime.executive.outcome import Event
 from runtime.executive.record import TokenRecord, Value
 

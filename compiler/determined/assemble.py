@@ -6,7 +6,7 @@ from compiler.determined.elaborate import Elaboration
 from compiler.determined.linear import linear
 from compiler.determined.model import ReactorModel
 from compiler.determined.operations import Instruction
-from compiler.determined.optimise import BlockFacts, optimise
+from compiler.determined.optimise import BlockFacts, optimise, packed
 from compiler.determined.relations import FOLLOWING, ROOT, TOGETHER
 from compiler.determined.schedule import AGAIN, Placed, Sequence, schedule
 from compiler.program import PredicateCode
@@ -33,7 +33,7 @@ def compile_block(
         line,
         predicate,
         mask,
-        tuple(linear(placed)),
+        tuple(linear(packed(placed))),
         tuple(work.tokens),
         tuple(work.guards),
         tuple(work.locals),

@@ -12,6 +12,7 @@ DISTANCE, TOWARDS, TRAVEL = range(22, 25)
 UNIFY, NEED, HOLD, CLEAR, WHEN_FALSE, WHEN_TRUE, DRAW = range(25, 32)
 MOVE, MUL_ADD, UNLESS_SAME = range(32, 35)  # several copies; a product and a sum, each rounded; SAME and WHEN_FALSE
 BEGIN, MERGE, PREVIOUS, FOLLOW, LAST_EXACTLY, LAST_LEAST, LAST_MOST, TIE, WITHIN, MEMBER, ORDER, PLANNED = range(35, 47)
+COPIES = 47  # three copies, one after the other: results and sources in turn
 TARGET = {WHEN_FALSE: 2, WHEN_TRUE: 2, UNLESS_SAME: 4}  # where a jump has the number of an instruction
 STRIDE = 8  # numbers of an instruction: operation, result, up to six operands
 

@@ -328,3 +328,38 @@ def _widened(copies: list[Placed]) -> list[Placed]:
         else:
             found.append((context, (code.MOVE, out, source, 1)))
     return [(context, one if one[3] > 1 else (code.COPY, *one[1:3])) for context, one in found]
+
+
+def packed(placed: list[Placed]) -> list[Placed]:
+    """Copies that follow each other in one branch, three to an instruction; long moves stay as they are."""
+    done: list[Placed] = []
+    pairs: list[tuple[int, int]] = []
+    inside: Context = ()
+
+    def give() -> None:
+        for k in range(0, len(pairs), 3):
+            three = pairs[k : k + 3]
+            flat = [each for pair in three for each in pair]
+            done.append((inside, (code.COPY, *flat) if len(flat) == 2 else (code.COPIES, *flat, *flat[-2:])[:7]))
+        pairs.clear()
+
+    for context, instruction in placed:
+        few = _few_copies(instruction)
+        if not few or context != inside:
+            give()
+            inside = context
+        pairs += few
+        if not few:
+            done.append((context, instruction))
+    give()
+    return done
+
+
+def _few_copies(instruction: Instruction) -> list[tuple[int, int]]:
+    """Result and source of each copy that an instruction makes, if it makes copies, and no more than three."""
+    operation, *rest = instruction
+    if operation == code.COPY:
+        return [(rest[0], rest[1])]
+    if operation == code.MOVE and rest[2] <= 3:
+        return [(rest[0] + k, rest[1] + k) for k in range(rest[2])]
+    return []

@@ -1,6 +1,7 @@
 """Parameters as registers hold them, and as reactors tell each other."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from compiler.determined.reasons import UndeterminedError
 from compiler.program import DomainConstant, ParameterCode, PredicateCode
@@ -62,6 +63,24 @@ def arguments_at(shapes: list[ParameterShape], names: Sequence[str], log: Log, f
     for k, shape in enumerate(shapes):
         told.append(_told(shape, names, log.values[first + k]))
     return tuple(told)
+
+
+def values_at(shapes: list[ParameterShape], names: Sequence[str], log: Log, first: int) -> list[Any]:
+    """Values that stand in a log, from an index on, as Python has them; two bounds where one was never fixed."""
+    found: list[Any] = []
+    for k, shape in enumerate(shapes):
+        value, kind = log.values[first + k], shape[1]
+        if value != value:
+            found.append((-INFINITY, INFINITY))
+        elif kind == "float":
+            found.append(value + 0.0)  # no negative zero
+        elif kind == "int":
+            found.append(int(value))
+        elif kind == "bool":
+            found.append(bool(value))
+        else:
+            found.append(names[int(value)])
+    return found
 
 
 def arguments_from(shapes: list[ParameterShape], names: Sequence[str], values: Sequence[float]) -> Arguments:

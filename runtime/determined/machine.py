@@ -3,9 +3,8 @@
 
 At a tick the machine finds what must end (its latest end is now, or something that was asked for may start) and runs
 the block of what starts in its place, timelines in causal order. It stops at whatever the code does not foresee: a
-value that is not known, a constraint that does not hold, bounds without a value. What it has written by then is void;
-who runs it goes back to a snapshot, or hands over to the general engine. The operations are those of
-`compiler.determined.code`, by numbers of which the C compiler makes a jump table.
+value that is not known, a constraint that does not hold, bounds without a value. What it has written by then is void:
+who runs it goes back to a snapshot, or hands over. Operations are numbered as in `compiler.determined.code`.
 """
 
 import math
@@ -36,8 +35,7 @@ from runtime.determined.tags import (
     WISHED,
 )
 
-_NAN, _TOLERANCE = float("nan"), 1e-5  # the tolerance is that of the engine's floats
-_LARGEST = 2.0**51  # what is larger counts as infinite
+_NAN, _TOLERANCE, _LARGEST = float("nan"), 1e-5, 2.0**51  # that of the engine's floats; what is larger is infinite
 
 
 class Machine:
@@ -220,9 +218,8 @@ class Machine:
         self.registers[tables.starts[i]] = self.present.now
         first = tables.current[i]
         if tables.remembers[i]:
-            into = tables.previous[i]
             for j in range(tables.width[i]):
-                self.registers[into + j] = self.registers[first + j]
+                self.registers[tables.previous[i] + j] = self.registers[first + j]
         for j in range(first, first + tables.width[i]):
             self.registers[j] = _NAN
         return 0
@@ -379,8 +376,7 @@ class Machine:
                 z = self.registers[a]
                 if not -_LARGEST < z < _LARGEST or z != math.floor(z):
                     return False
-                j = int(z)
-                present.bound(out, j, op != 41, op != 40)
+                present.bound(out, int(z), op != 41, op != 40)
             elif op == 42:  # TIE
                 present.tie(out, a)
             elif op == 43:  # WITHIN
@@ -398,3 +394,7 @@ class Machine:
             elif op == 46:  # PLANNED
                 if not self.is_planned:
                     return False
+            elif op == 47:  # COPIES
+                self.registers[out] = self.registers[a]
+                self.registers[b] = self.registers[tables.code[at - 4]]
+                self.registers[tables.code[at - 3]] = self.registers[tables.code[at - 2]]

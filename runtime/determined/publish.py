@@ -2,14 +2,15 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
-from runtime.determined.arguments import arguments_at, shapes_of
+from runtime.determined.arguments import arguments_at, shapes_of, values_at
 from runtime.determined.loading import ParameterShape, RegisterProgram
 from runtime.determined.log import Log
 from runtime.determined.machine import Machine
 from runtime.determined.tags import BLOCK, EVENT, FAR, KIND, LINE, ROW, VALUES, WISHED
 from runtime.determined.told import Told
-from runtime.executive.messages import Observation, Request, make_tuple
+from runtime.executive.messages import Arguments, Observation, Request, make_observation
 from runtime.executive.outcome import Draw, EventKind, Phase
 from runtime.executive.trace import Trace
 
@@ -81,7 +82,7 @@ class Publisher:
         log, trace = self.log, self.trace
         while log.next_tick() <= until:
             first = log.told_count
-            count = log.tell(until, self.busy, len(trace.events))
+            count = log.tell(until, self.busy, trace.events.length)
             if count:
                 trace.events.extend(self.columns, first, count)
             if log.next_tick() <= until:
@@ -111,16 +112,31 @@ class Publisher:
 
     def _observation(self, row: int) -> Observation:
         log, at = self.log, ROW * row
-        predicate = log.rows[at + KIND]
+        name, short, tick = self.line_names[log.rows[at + LINE]], self.short_names[log.rows[at + KIND]], log.rows[at]
+        return make_observation(tick, name, short, self, log.rows[at + EVENT], self.name, row, row_key(tick))
+
+    def shapes_of(self, token: int) -> list[ParameterShape]:
+        """The parameters of the predicate of a row."""
+        predicate = self.log.rows[ROW * token + KIND]
         shapes = self.shapes[predicate]
         if shapes is None:
             shapes = self.shapes[predicate] = shapes_of(self.program, self.program.model.program.predicates[predicate])
+        return shapes
+
+    def arguments_of(self, token: int) -> Arguments:
+        """The arguments of a row."""
+        self._name_all()
+        return arguments_at(self.shapes_of(token), self.names, self.log, self.log.rows[ROW * token + VALUES])
+
+    def values_of(self, token: int) -> list[Any]:
+        """The values of the arguments of a row."""
+        self._name_all()
+        return values_at(self.shapes_of(token), self.names, self.log, self.log.rows[ROW * token + VALUES])
+
+    def _name_all(self) -> None:
+        """Bring the names that numbers stand for up to date."""
         if len(self.names) < len(self.symbols):
-            self.program.all_names()  # brings them up to date
-        arguments = arguments_at(shapes, self.names, log, log.rows[at + VALUES])
-        name, short, tick = self.line_names[log.rows[at + LINE]], self.short_names[predicate], log.rows[at]
-        told = (tick, name, short, arguments, log.rows[at + EVENT], self.name, row, row_key(tick))
-        return make_tuple(Observation, told)
+            self.program.all_names()
 
     def _tell_tick(self, tick: int) -> None:
         """Put a tick on record in which something was drawn, or something that was asked for begins or ends."""

@@ -18,6 +18,7 @@ from runtime.user.reactor import Argument, Asked, Now, Published, Reactor, Seen,
 _NEVER = 2**62
 _MOST_CAUSES = 3
 _NOBODY: frozenset[int] = frozenset()
+_SYS = vars(sys)
 _NAMED = ("symbol", "string", "object")  # kinds whose values are written as texts
 _Kinds = Callable[[str, str], "Mapping[str, tuple[str, str]] | None"]  # timeline, predicate: parameters; None: unknown
 
@@ -37,7 +38,8 @@ class CodedReactor(TeleoReactor):
             configuration.name, configuration.internal, configuration.external, configuration.latency, lookahead=0
         )
         self.files = (configuration.file,)
-        self.caller = Plain(f"the reactor `{self.name}`", self.files)
+        self.call = (Plain(f"the reactor `{self.name}`", self.files), None, 0)
+        self.watch = WATCH
         self.make = make
         self.kinds = kinds
         self.trace = trace
@@ -46,6 +48,7 @@ class CodedReactor(TeleoReactor):
         self.events: dict[str, int] = {}
         self.news: dict[str, Observation] = {}
         self.wakes_on = self.external if wakes_on is None else tuple(wakes_on)
+        self.told_sets: dict[tuple[str, ...], frozenset[str]] = {}  # what was news at once
         self.is_stirred = False  # something has begun to hold on one of these
         self.refused_numbers: list[int] = []
         self.wakes = {0}  # the ticks at which the code wants to be called
@@ -63,10 +66,11 @@ class CodedReactor(TeleoReactor):
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published."""
-        self.news[observation.timeline] = observation
-        if observation.timeline in self.wakes_on:
+        news = observation
+        self.news[news.timeline] = news
+        if news.timeline in self.wakes_on:
             self.is_stirred = True
-            self.due = observation.tick
+            self.due = news.tick
 
     def synchronise(self, tick: int) -> Failure | None:
         """Let the code speak, if there is anything new."""
@@ -74,19 +78,17 @@ class CodedReactor(TeleoReactor):
             return None
         told: list[str] = []
         for timeline, observation in self.news.items():
-            arguments: dict[str, Argument] = {}
-            for name, domain in observation.arguments:
-                interval = domain.interval  # mostly of a single number
-                if interval is not None and interval[0] == interval[1]:
-                    arguments[name] = interval[0]
-                else:
-                    arguments[name] = _shown(domain)
+            arguments = _shown_arguments(observation)
             self.seen[timeline] = make_tuple(Seen, (observation.predicate, arguments, observation.tick))
             self.events[timeline] = observation.event
             if observation.tick == tick or timeline in self.wakes_on:
                 told.append(timeline)
         refused = frozenset(self.refused_numbers) if self.refused_numbers else _NOBODY
-        now = Now(tick, dict(self.seen), frozenset(told), refused, self.count)
+        names = tuple(told)
+        news = self.told_sets.get(names)
+        if news is None:
+            news = self.told_sets[names] = frozenset(told)
+        now = Now(tick, dict(self.seen), news, refused, self.count)
         self.news.clear()
         self.is_stirred = False
         if self.refused_numbers:
@@ -114,18 +116,17 @@ class CodedReactor(TeleoReactor):
 
     def _call(self, now: Now) -> object:
         """Call the code under watch; what it prints goes to standard error, since programs read standard output."""
-        call = (self.caller, None, 0)
         if self.code is None:
             WATCH.start()
-        before, output = WATCH.begin(call), sys.stdout
+        before, output = self.watch.begin(self.call), _SYS["stdout"]
         try:
-            sys.stdout = sys.stderr
+            _SYS["stdout"] = _SYS["stderr"]
             if self.code is None:
                 self.code = self.make()
             answer: object = self.code.tick(now)  # type: ignore[func-returns-value]  # so it says, and may not do
         finally:
-            sys.stdout = output
-            WATCH.end(call, before)
+            _SYS["stdout"] = output
+            self.watch.end(self.call, before)
         return answer
 
     def _check_wakes(self) -> None:
@@ -135,6 +136,8 @@ class CodedReactor(TeleoReactor):
 
     def _take(self, now: Now) -> None:
         """Check what the code has said; raises ValueError and its like for what makes no sense."""
+        if not now.published and not now.asked and not now.recalled and not now.wakes:
+            return
         for one in now.published:
             if one.timeline not in self.internal:
                 raise ValueError(f"it published on `{one.timeline}`, which it does not own")
@@ -255,6 +258,20 @@ class CodedReactor(TeleoReactor):
             reason=Reason(ReasonKind.NO_LOOKAHEAD),
         )
         self.given_up.append(Refusal(request, event))
+
+
+def _shown_arguments(observation: Observation) -> dict[str, Argument]:
+    """The arguments of an observation as users read them."""
+    found: dict[str, Argument] = {}
+    source = observation.source
+    if source is not None:
+        values = source.values_of(observation.token)
+        for k, shape in enumerate(source.shapes_of(observation.token)):
+            found[shape[0]] = values[k]
+        return found
+    for name, domain in observation.arguments:
+        found[name] = _shown(domain)
+    return found
 
 
 def _shown(domain: DomainConstant) -> Argument:

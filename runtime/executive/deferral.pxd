@@ -1,6 +1,7 @@
 # The C types of `deferral.py`.
 
 cimport cython
+from runtime.executive.messages cimport Observation
 from runtime.executive.past cimport Past
 from runtime.executive.timelines cimport TimelineState
 from runtime.executive.workbench cimport Workbench
@@ -12,18 +13,18 @@ cdef double inf
 
 cdef class Deferral:
     cdef public Workbench bench
-    cdef public dict lines, waiting, _is_loose, _is_plain, _kinds
+    cdef public dict lines, waiting, _is_loose, _is_plain, _kinds, _shapes
     cdef public list passed
     cdef public Past past
 
     @cython.locals(line=TimelineState, predicate="long long")
-    cpdef bint takes(self, observation) except -1
+    cpdef bint takes(self, Observation observation) except -1
 
     @cython.locals(bench=Workbench, fact="long long", holds=bint, tick="long long")
-    cpdef int _observe(self, TimelineState line, observation, long long end) except -1
+    cpdef int _observe(self, TimelineState line, Observation observation, long long end) except -1
 
-    @cython.locals(predicate="long long", rows=Rows)
-    cpdef object _pass(self, TimelineState line, observation, long long end)
+    @cython.locals(begun=object, predicate="long long", rows=Rows, values=list)
+    cpdef object _pass(self, TimelineState line, Observation observation, long long end)
 
-    @cython.locals(k="long long", kinds=list)
-    cpdef bint _fits(self, long long predicate, observation) except -1
+    @cython.locals(k="long long", kinds=list, shapes=list)
+    cpdef bint _fits(self, long long predicate, Observation observation) except -1

@@ -15,8 +15,10 @@ from runtime.executive.record import NOBODY, TokenRecord, Value
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.view import SPAN_EXECUTIVE, SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
+from runtime.plan.tags import INFINITY
 from runtime.plan.tokens.tokens import take_key
 
+_OPEN = (-INFINITY, INFINITY)  # what was never fixed
 _KEPT = 2  # the current token, and the one before it for rules that say "met by"
 
 
@@ -32,6 +34,7 @@ class Deferral:
         self._is_loose: dict[str, bool] = {}  # whether nothing hangs on what holds on a timeline, and nothing follows
         self._is_plain: dict[int, bool] = {}  # whether a predicate says nothing of its tokens
         self._kinds: dict[int, list[tuple[str, str]]] = {}  # names and kinds of the parameters of a predicate
+        self._shapes: dict[int, list[tuple[object, ...]]] = {}  # of the owner's tokens, where they are of these kinds
 
     def takes(self, observation: Observation) -> bool:
         """Let an observation wait, if it cannot matter."""
@@ -116,10 +119,13 @@ class Deferral:
         key = take_key(self.bench.plan)
         begun = observation.tick
         values: list[Value] = []
-        for _, domain in observation.arguments:
-            interval = domain.interval
-            assert interval is not None  # so it fits
-            values.append(interval[0])
+        if observation.source is not None:
+            values = observation.source.values_of(observation.token)
+        else:
+            for _, domain in observation.arguments:
+                interval = domain.interval
+                assert interval is not None  # so it fits
+                values.append(interval[0])
         times = (end - begun, begun, end)
         fields = (key, name, line.name, "active", *times, tuple(values), NOBODY, "observation", "over", end, ())
         self.passed.append(make_tuple(TokenRecord, fields))
@@ -167,6 +173,14 @@ class Deferral:
         if kinds is None:
             parameters = self.bench.database.program.predicates[predicate].parameters
             kinds = self._kinds[predicate] = [(each.name, each.type.kind) for each in parameters]
+        source = observation.source
+        if source is not None:
+            shapes = source.shapes_of(observation.token)
+            if self._shapes.get(predicate) is not shapes:
+                if [shape[:2] for shape in shapes] != kinds:
+                    return False
+                self._shapes[predicate] = shapes
+            return _OPEN not in source.values_of(observation.token)
         arguments = observation.arguments
         if len(arguments) != len(kinds):
             return False

@@ -2,96 +2,43 @@
 
 from bisect import bisect_right
 from collections.abc import Callable, Container, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Protocol, overload
+from typing import overload
 
 from runtime.executive.columns import PublishedColumns
+from runtime.executive.event_parts import EventColumns, EventParts, EventRun
 from runtime.executive.outcome import Event, EventKind
 
 Head = tuple[int, int, str, str]  # of an observation: index, tick, timeline and predicate
 
 
-class EventColumns(Protocol):
-    """Observations that are kept as columns."""
-
-    def head(self, index: int) -> tuple[int, str, str]:
-        """Tick, timeline and predicate of the observation at an index of the columns."""
-
-    def event(self, index: int) -> Event:
-        """The observation at an index."""
-
-    def published(self) -> tuple[PublishedColumns, ...]:
-        """All observations, by timeline and predicate."""
-
-    def causes(self, index: int) -> tuple[int, ...]:
-        """What caused the observation at an index."""
-
-    def stored(self) -> "EventColumns":
-        """The same apart from what else the mission leaves behind."""
-
-
-@dataclass(eq=False, slots=True)
-class EventRun:
-    """`count` observations in columns, from an index on."""
-
-    columns: EventColumns
-    first: int
-    count: int
-
-
-class EventLog(Sequence[Event]):
+class EventLog(EventParts, Sequence[Event]):
     """A sequence of events, equal to the tuple of them."""
-
-    def __init__(self, parts: Sequence[Event | EventRun] = ()) -> None:
-        self._parts = list(parts)
-        self._starts: list[int] = []  # the index of the first event of each part
-        self._length = 0
-        for part in parts:
-            self._starts.append(self._length)
-            self._length += part.count if isinstance(part, EventRun) else 1
-
-    def append(self, event: Event) -> int:
-        """Add an event; its index."""
-        self._parts.append(event)
-        self._starts.append(self._length)
-        self._length += 1
-        return self._length - 1
-
-    def extend(self, columns: EventColumns, index: int, count: int) -> None:
-        """Add the observations at `index` and after."""
-        last = self._parts[-1] if self._parts else None
-        if isinstance(last, EventRun) and last.columns is columns and last.first + last.count == index:
-            last.count += count
-        else:
-            self._parts.append(EventRun(columns, index, count))
-            self._starts.append(self._length)
-        self._length += count
 
     @property
     def parts(self) -> Sequence[Event | EventRun]:
         """Single events and runs, in order."""
-        return self._parts
+        return self.all_parts
 
     def single(self) -> list[Event]:
         """All events but those in runs."""
-        return [part for part in self._parts if isinstance(part, Event)]
+        return [part for part in self.all_parts if isinstance(part, Event)]
 
     def published(self) -> list[tuple[EventColumns, PublishedColumns]]:
         """The observations in runs, as columns, each with what expands them."""
         sources: dict[int, EventColumns] = {}
-        for part in self._parts:
+        for part in self.all_parts:
             if isinstance(part, EventRun):
                 sources[id(part.columns)] = part.columns
         return [(source, each) for source in sources.values() for each in source.published()]
 
     def changed(self, change: Callable[[Event], Event]) -> "EventLog":
         """The same events, single ones changed."""
-        return EventLog([change(part) if isinstance(part, Event) else part for part in self._parts])
+        return EventLog([change(part) if isinstance(part, Event) else part for part in self.all_parts])
 
     def heads(self) -> Iterator[Head]:
         """Each observation in short, in order."""
         number = 0
-        for part in self._parts:
+        for part in self.all_parts:
             if isinstance(part, EventRun):
                 for index in range(part.first, part.first + part.count):
                     yield number, *part.columns.head(index)
@@ -103,7 +50,7 @@ class EventLog(Sequence[Event]):
 
     def causes(self) -> Iterator[tuple[int, ...]]:
         """The causes of each event, in order."""
-        for part in self._parts:
+        for part in self.all_parts:
             if isinstance(part, EventRun):
                 yield from map(part.columns.causes, range(part.first, part.first + part.count))
             else:
@@ -111,15 +58,15 @@ class EventLog(Sequence[Event]):
 
     def causes_at(self, index: int) -> tuple[int, ...]:
         """The causes of the event at an index, not below 0."""
-        number = bisect_right(self._starts, index) - 1
-        part = self._parts[number]
+        number = bisect_right(self.starts, index) - 1
+        part = self.all_parts[number]
         if isinstance(part, Event):
             return part.causes
-        return part.columns.causes(part.first + index - self._starts[number])
+        return part.columns.causes(part.first + index - self.starts[number])
 
     def on(self, timelines: Container[str]) -> Iterator[Event]:
         """The events on some timelines, in order."""
-        for part in self._parts:
+        for part in self.all_parts:
             if isinstance(part, Event):
                 if part.timeline in timelines:
                     yield part
@@ -128,25 +75,22 @@ class EventLog(Sequence[Event]):
                 if part.columns.head(index)[1] in timelines:
                     yield part.columns.event(index)
 
-    def __len__(self) -> int:
-        return self._length
-
     @overload
     def __getitem__(self, index: int) -> Event: ...
     @overload
     def __getitem__(self, index: slice) -> tuple[Event, ...]: ...
     def __getitem__(self, index: int | slice) -> Event | tuple[Event, ...]:
         if isinstance(index, slice):
-            return tuple(self[k] for k in range(*index.indices(self._length)))
-        at = index + self._length if index < 0 else index
-        if not 0 <= at < self._length:
+            return tuple(self[k] for k in range(*index.indices(self.length)))
+        at = index + self.length if index < 0 else index
+        if not 0 <= at < self.length:
             raise IndexError(index)
-        number = bisect_right(self._starts, at) - 1
-        part = self._parts[number]
-        return part if isinstance(part, Event) else part.columns.event(part.first + at - self._starts[number])
+        number = bisect_right(self.starts, at) - 1
+        part = self.all_parts[number]
+        return part if isinstance(part, Event) else part.columns.event(part.first + at - self.starts[number])
 
     def __iter__(self) -> Iterator[Event]:
-        for part in self._parts:
+        for part in self.all_parts:
             if isinstance(part, Event):
                 yield part
             else:
@@ -162,7 +106,7 @@ class EventLog(Sequence[Event]):
         return repr(tuple(self))
 
     def __reduce__(self) -> tuple[type, tuple[list[Event | EventRun]]]:
-        return EventLog, (self._parts,)
+        return EventLog, (self.all_parts,)
 
 
 def single_events(events: Sequence[Event]) -> Sequence[Event]:

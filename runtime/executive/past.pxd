@@ -4,7 +4,7 @@ cimport cython
 from runtime.executive.workbench cimport Workbench
 from runtime.plan.lifecycle cimport fire
 from runtime.plan.store.plan cimport Plan
-from runtime.plan.tokens.predicate_hierarchy cimport first_active, next_active
+from runtime.plan.tokens.predicate_hierarchy cimport active_head, first_active, next_active
 from runtime.plan.tokens.tokens cimport activation
 
 cdef long long SPAN_OBSERVATION, _MOST
@@ -14,7 +14,8 @@ cdef double inf
 cdef class Past:
     cdef public Workbench bench
     cdef public tuple predicates
-    cdef public list _over, _gone
+    cdef public list _gone
+    cdef public long long _tick
     cdef public dict _kept
 
     cpdef long long archive(self, list timelines, long long tick) except? -1
@@ -26,7 +27,7 @@ cdef class Past:
     cpdef list uses(self, long long tick)
 
     @cython.locals(bench=Workbench, found=dict, o="long long", predicate="long long", t="long long")
-    cpdef list _found(self, long long tick)
+    cpdef list _found(self, long long tick, set heads=*)
 
     @cython.locals(bench=Workbench, end=double, start=double)
     cpdef object _outline(self, long long t)

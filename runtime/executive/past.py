@@ -40,14 +40,14 @@ class Past:
     def __init__(self, bench: Workbench) -> None:
         self.bench = bench
         self.predicates = forms_of(bench.database.program).looked_back
-        self._over: list[int] = []  # what may be asked for later of what is looked at in archiving
+        self._tick = 0  # of archiving
         self._gone: list[OverToken] = []
         bench.recorder.witness = self._note
         self._kept: dict[tuple[int, int], list[tuple[int, int]]] = {}  # by timeline and predicate: rows and keys
 
     def archive(self, timelines: list[TimelineState], tick: int) -> int:
         """Take out of the plan what is over, but for what rules may look back at; how many tokens went."""
-        self._over = self._found(tick)
+        self._tick = tick
         count = self.bench.archive(timelines, tick)
         if self._gone:
             self.keep(self._gone)
@@ -56,9 +56,12 @@ class Past:
 
     def _note(self, tokens: list[int]) -> None:
         """Note what those of some tokens were that leave the plan and may be asked for."""
-        if self._over:
-            leaving = set(tokens)
-            self._gone = [self._outline(t) for t in self._over if t in leaving]
+        if not self.predicates:
+            return
+        plan, rows = self.bench.plan, self.bench.rows
+        heads = {active_head(plan, rows.predicate[t]) for t in tokens if rows.status[t] == ACTIVE}
+        leaving = set(tokens)
+        self._gone = [self._outline(t) for t in self._found(self._tick, heads) if t in leaving]
 
     def outlines(self, tick: int) -> list[OverToken]:
         """What is over by `tick` on shared timelines and may be asked for later."""
@@ -77,11 +80,13 @@ class Past:
             and -inf < bench.started_at(t)
         ]
 
-    def _found(self, tick: int) -> list[int]:
-        """The tokens of `outlines`, by predicate and key."""
+    def _found(self, tick: int, heads: set[int] | None = None) -> list[int]:
+        """The tokens of `outlines`, by predicate and key; those on some lists of active tokens, if these are given."""
         bench = self.bench
         found: dict[int, None] = {}
         for predicate in self.predicates:
+            if heads is not None and active_head(bench.plan, predicate) not in heads:
+                continue
             t = first_active(bench.plan, predicate)
             while t >= 0:
                 if not bench.is_kept(t) and bench.upper(bench.end(t)) <= tick and -inf < bench.started_at(t):

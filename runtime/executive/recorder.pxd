@@ -17,6 +17,7 @@ cdef class Recorder:
     cdef public Plan plan
     cdef public Rows rows
     cdef public Engine engine
+    cdef public list object_names, predicate_names
     cdef public dict tokens, requests, agreed, gone, kept
     cdef public long long synchronised
     cdef public bint is_lost

@@ -83,6 +83,8 @@ class Recorder:
         self.gone: dict[tuple[int, int], int] = {}  # (key of a parent, row of a child that left before it) -> its key
         self.witness: Callable[[list[int]], None] | None = None  # is told of tokens before they leave
         self.script_tokens = self._script_tokens()
+        self.predicate_names = [predicate.name for predicate in database.program.predicates]
+        self.object_names = database.objects.names
 
     # ---- when ----
 
@@ -161,7 +163,7 @@ class Recorder:
             arguments = tuple([self.value(first + FIRST_PARAMETER + k, shape) for k, shape in enumerate(shapes)])
         fields = (
             rows.key[t],
-            self.database.program.predicates[number].name,
+            self.predicate_names[number],
             self.value(first + OBJECT, SHAPE_OBJECT),
             _STATES[status],
             self.value(first + OBJECT + 1, SHAPE_INT),
@@ -301,7 +303,7 @@ class Recorder:
         if shape == SHAPE_BOOL:
             return bool(whole)
         if shape == SHAPE_OBJECT:
-            return self.database.objects.names[whole]
+            return self.object_names[whole]
         names = self.database.prototypes.texts if shape == SHAPE_STRING else self.database.prototypes.symbols
         return str(names.text(whole))
 

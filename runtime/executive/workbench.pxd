@@ -90,7 +90,10 @@ cdef class Workbench(PlanView):
 
     cpdef int note_kept(self, long long t) except -1
 
-    @cython.locals(kept=set, line=TimelineState, over=list, rows=Rows, status="long long", t="long long")
+    @cython.locals(
+        kept_key="long long[::1]", known="long long", latest="long long[::1]", line=TimelineState, over=list, rows=Rows,
+        status="long long", staying=set, t="long long",
+    )
     cpdef long long archive(self, list timelines, long long tick) except? -1
 
     @cython.locals(engine=Engine, lowest=list, needless=list, r="long long", span="long long", v="long long")

@@ -90,7 +90,7 @@ class Workbench(PlanView):
 
     def _narrow(self, v: int, lower: float, upper: float, span: int, t: int) -> bool:
         """Restrict a base domain; what had one value left may be decided by it, and guards wait for that."""
-        was_decided = self.engine.is_decided(v)
+        was_decided = not self.plan.variable_guards[v] or self.engine.is_decided(v)
         if not self.engine.restrict_base(v, lower, upper, span, t):
             return False
         if not was_decided and self.engine.is_decided(v):
@@ -236,18 +236,20 @@ class Workbench(PlanView):
 
         What is done by rules that say "met by" finds its partner for as long as the next token holds.
         """
-        kept = set()
+        rows, latest, kept_key = self.rows, self.engine.ub, self.kept_key
+        staying = set()
         for line in timelines:
             if line.current >= 0:
-                kept.add(line.current)
-                kept.add(self.rows.link_before[LISTS * line.current + LIST_ORDER])
-        over = []
-        rows = self.rows
+                staying.add(line.current)
+                staying.add(rows.link_before[LISTS * line.current + LIST_ORDER])
+        over: list[int] = []
+        known = len(kept_key)
         for t in range(rows.token_count):
+            if t < known and kept_key[t] == rows.key[t]:
+                continue  # over, and here for others to look back at
             status = rows.status[t]
-            if (status == ACTIVE or status == MERGED) and self.engine.upper(rows.var0[t] + END) <= tick:
-                if not self.is_kept(t) and t not in kept:
-                    over.append(t)
+            if (status == ACTIVE or status == MERGED) and latest[rows.var0[t] + END] <= tick and t not in staying:
+                over.append(t)
         if not over or not fire(self.plan):
             return 0
         return archive(self.plan, over, tick, self.leaving, self.recorder.leave)

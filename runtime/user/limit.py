@@ -17,10 +17,11 @@ from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
 from threading import get_ident
 from types import FrameType
-from typing import NoReturn, Protocol
+from typing import NoReturn
 
 from runtime.constraints.domains.store import Store
-from runtime.user.black_box import HERE, CallRecorder
+from runtime.user.black_box import HERE
+from runtime.user.calls import Call, CallSlot
 from runtime.user.fault import StoppedError, UserCodeError, place_in, stopped
 
 USUAL = 5.0  # seconds that one call may take
@@ -30,25 +31,6 @@ UNUSABLE = 2
 DEBUGGERS = ("bdb", "pydevd")
 _END, _ABORT = os._exit, os.abort  # as they are where no call of a modeler's code is under way
 ALARM: int | None = getattr(signal, "SIGALRM", getattr(signal, "SIGBREAK", None))
-
-
-class Caller(Protocol):
-    """Who calls a modeler's code."""
-
-    def told(self, s: Store | None, c: int) -> str:
-        """What is called, by constraint `c` of an engine, in words."""
-
-    @property
-    def title(self) -> str:
-        """What is called, wherever it is."""
-
-    @property
-    def files(self) -> tuple[str, ...]:
-        """Where the code is written."""
-
-    @property
-    def line(self) -> int:
-        """Where it begins in the first of them."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -62,9 +44,6 @@ class Plain:
     def told(self, s: Store | None, c: int) -> str:
         """The same wherever it is."""
         return self.title
-
-
-Call = tuple[Caller, Store | None, int]  # who calls, and from which constraint of which engine
 
 
 def _print_last_words(problem: UserCodeError) -> None:
@@ -86,14 +65,13 @@ class _Looks:
         return self.away
 
 
-class Watch:
+class Watch(CallSlot):
     """The call of a modeler's code that is under way in this process, and how long one may take."""
 
     def __init__(self) -> None:
+        super().__init__()
         self.seconds = USUAL
         self.last_words: Callable[[UserCodeError], None] = _print_last_words
-        self.call: Call | None = None  # the one that is under way
-        self._box: CallRecorder | None = None
         self._thread = 0  # the one that calls
         self._looks = _Looks()
         self._excused: Call | None = None  # the call that somebody steps through
@@ -115,27 +93,12 @@ class Watch:
             if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
                 signal.signal(signal.SIGINT, self.interrupt)
         os._exit, os.abort = self._exit, self._abort
-        self._box = HERE.recorder
-        if self._box is not None:
-            self._box.limit(self.seconds)
+        self.box = HERE.recorder
+        if self.box is not None:
+            self.box.limit(self.seconds)
         if not self._is_watching:
             self._is_watching = True
             threading.Thread(target=self._look, name="nddlc limit", daemon=True).start()
-
-    def begin(self, call: Call) -> Call | None:
-        """A call begins; the one that was under way before, for `end`."""
-        before, self.call = self.call, call
-        if self._box is not None:
-            self._box.begin(call[0])
-        return before
-
-    def end(self, call: Call, before: Call | None) -> None:
-        """It ends, in whichever way."""
-        if self.call is not call:
-            self._astray(call)
-        self.call = before
-        if self._box is not None:
-            self._box.end()
 
     def _set_alarm(self) -> None:
         """Have the kernel call; where it cannot, the thread does. Somebody else's alarm is left alone."""
@@ -173,12 +136,12 @@ class Watch:
     def _note_fork(self) -> None:
         """This process is a copy of the one that was here; it has no thread that watches."""
         self._is_watching = False
-        self._box = HERE.recorder = None
+        self.box = HERE.recorder = None
         if self.call is not None:
             self._is_copy = True
             self.call = None
 
-    def _astray(self, call: Call) -> None:
+    def astray(self, call: Call) -> None:
         """A call came back that is not the one under way: in a copy of the process, that is its end."""
         if self._is_copy:
             caller, s, c = call
@@ -205,8 +168,8 @@ class Watch:
             return
         if _is_debugged():
             self._excused = self.call
-            if self._box is not None:
-                self._box.excuse()
+            if self.box is not None:
+                self.box.excuse()
         elif self.call is not self._excused:
             raise StoppedError(self.seconds)
 

@@ -95,6 +95,8 @@ def is_base_single(s: Store, v: int) -> bool:
         if not s.restriction_flags[r] & FLAG_DECISION:
             lo = max(lo, s.restriction_lo[r])
             hi = min(hi, s.restriction_hi[r])
+            if lo == hi and s.consistent:
+                return True  # what the others allow has this value
             has_values = has_values or (s.restriction_flags[r] == FLAG_VALUES and not is_listing(s, r))
         r = s.restriction_next[r]
     if lo == hi or (s.kind[v] == KIND_FLOAT and hi - lo <= FLOAT_TOLERANCE):

@@ -14,3 +14,6 @@ cdef class SparseSet:
     cpdef int add(self, long long number) except -1
 
     cpdef bint has(self, long long number) except -1
+
+    @cython.locals(at="long long", gap="long long", i="long long", number="long long")
+    cpdef int sort(self) except -1

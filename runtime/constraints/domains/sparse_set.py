@@ -38,3 +38,19 @@ class SparseSet:
     def has(self, number: int) -> bool:
         """Whether a number is there."""
         return bool(self.marks[number])
+
+    def sort(self) -> int:
+        """Put the numbers into ascending order (Shell 1959, with the gaps of Knuth)."""
+        gap = 1
+        while 3 * gap + 1 < self.count:
+            gap = 3 * gap + 1
+        while gap > 0:
+            for i in range(gap, self.count):
+                number = self.items[i]
+                at = i
+                while at >= gap and self.items[at - gap] > number:
+                    self.items[at] = self.items[at - gap]
+                    at -= gap
+                self.items[at] = number
+            gap //= 3
+        return 0

@@ -1,6 +1,7 @@
 # The C types of `store.py`.
 
 cimport cython
+from runtime.constraints.domains.sparse_set cimport SparseSet
 
 cdef long long CONFLICT_DOMAIN, EVENT_DECIDED, _FIRST_ROOM, PRIORITY_CHEAP, PRIORITY_WATCH, TRAIL_DECIDED
 cdef long long TRAIL_LOWER, TRAIL_REAL_LOWER, TRAIL_REAL_UPPER, TRAIL_UPPER
@@ -48,6 +49,7 @@ cdef class Store:
     cdef public bint holes, coarse, relational, consistent
     cdef public double tick_seconds, tick_epoch
     cdef public list suspects
+    cdef public SparseSet doomed, gone
 
     @cython.locals(room="long long")
     cpdef int grow_variables(self) except -1

@@ -4,6 +4,7 @@ from array import array
 from typing import Any
 
 from runtime.constraints.domains.arrays import grow_ring, grow_rows, grown, lengthen, next_log_room
+from runtime.constraints.domains.sparse_set import SparseSet
 from runtime.constraints.domains.tags import (
     CONFLICT_DOMAIN,
     EVENT_DECIDED,
@@ -155,6 +156,7 @@ class Store:
         self.relaxed = array("b", [0]) * room
         self.cone = array("q", [0]) * room
         self.cone_count = 0
+        self.doomed, self.gone = SparseSet(64), SparseSet(64)  # constraints and edges that a retraction removes
         self.support_stack = array("q", [0]) * room
         self.supported = array("q", [0]) * room  # by a row of the look-up that runs: 32 values to a cell
         # Queues: bounds whose edges must be visited, variables whose bounds may stand in a hole, constraints to run.

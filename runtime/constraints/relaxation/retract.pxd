@@ -8,20 +8,24 @@ from runtime.constraints.relaxation.cone cimport close_cone, relax_by, relax_by_
 from runtime.constraints.domains.narrow cimport raise_to, reduce_to
 from runtime.constraints.stn.network cimport attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
 from runtime.constraints.propagators.posting cimport release_constraint
+from runtime.constraints.domains.sparse_set cimport SparseSet
 from runtime.constraints.domains.store cimport Store
 from runtime.constraints.relaxation.trail cimport clear_queues, commit_trail
 from runtime.constraints.domains.variables cimport drop_restriction, drop_variable, keep_values
 
 cdef long long FLAG_DECISION, FLAG_VALUES, HALF_INF, INF, KIND_FLOAT, MODE_EDGES, NEVER, OP_TEMPORAL_DISTANCE, SIDE_LOWER
-cdef long long SIDE_UPPER, SUPPORT_EDGE, SUPPORT_RESTRICTION
+cdef long long SIDE_UPPER, SUPPORT_EDGE, SUPPORT_RESTRICTION, _WHOLE
 cdef double FLOAT_TOLERANCE, inf
 
 
-@cython.locals(c="long long", e="long long", gone=set, is_decision="long long", r="long long", v="long long")
+@cython.locals(
+    c="long long", doomed=SparseSet, e="long long", gone=SparseSet, i="long long", is_decision="long long",
+    r="long long", v="long long",
+)
 cpdef list retract(Store s, list constraints, list edges, list restrictions, list variables)
 
-@cython.locals(doomed=dict, e="long long", k="long long", slot="long long", v="long long")
-cpdef list _gather(Store s, list constraints, list variables)
+@cython.locals(e="long long", k="long long", slot="long long", v="long long")
+cpdef int _gather(Store s, list variables, SparseSet doomed) except -1
 
 @cython.locals(e="long long")
 cpdef list edges_of(Store s, long long v)

@@ -10,6 +10,7 @@ from math import inf
 from runtime.constraints.domains.base_domain import is_listing
 from runtime.constraints.domains.bitset import detach_words, drop_log
 from runtime.constraints.domains.narrow import raise_to, reduce_to
+from runtime.constraints.domains.sparse_set import SparseSet
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     FLAG_DECISION,
@@ -50,13 +51,18 @@ def retract(
     s.conflict_kind = 0
     s.visits_begun += 1
     s.cone_count = 0
+    doomed, gone = s.doomed, s.gone
+    doomed.empty(s.constraints_used)
+    gone.empty(s.edges_used)
     for v in variables:
         s.relaxed[v] = _WHOLE  # what goes stays out of the cone: all that it supports is touched by what goes with it
-    doomed = _gather(s, constraints, variables)
+    for c in constraints:
+        doomed.add(c)
+    _gather(s, variables, doomed)
     for e in edges:
         relax_by_edge(s, e)
-    for c in doomed:
-        relax_by_constraint(s, c)
+    for i in range(doomed.count):
+        relax_by_constraint(s, doomed.items[i])
     for r in restrictions:
         relax_by(s, s.restriction_variable[r], r * 4 + SUPPORT_RESTRICTION)
     suspects = [e for e in s.suspects if s.edge_source[e] >= 0]
@@ -64,11 +70,14 @@ def retract(
     for e in suspects:
         relax_by_edge(s, e)
     close_cone(s)
-    gone = set(edges)
-    for c in doomed:
-        for e in (s.link_a[c], s.link_b[c]):
-            if e >= 0:
-                gone.add(e)
+    for e in edges:
+        gone.add(e)
+    for i in range(doomed.count):
+        c = doomed.items[i]
+        if s.link_a[c] >= 0:
+            gone.add(s.link_a[c])
+        if s.link_b[c] >= 0:
+            gone.add(s.link_b[c])
     for v in variables:
         e = s.out_head[v]
         while e >= 0:
@@ -80,12 +89,14 @@ def retract(
             e = s.in_next[e]
     for e in suspects:
         detach_edge(s, e)
-    for e in sorted(gone):
-        if e not in suspects:
+    gone.sort()
+    for i in range(gone.count):
+        e = gone.items[i]
+        if not suspects or e not in suspects:
             detach_edge(s, e)
         free_edge(s, e)
-    for c in doomed:
-        release_constraint(s, c)
+    for i in range(doomed.count):
+        release_constraint(s, doomed.items[i])
     for r in restrictions:
         v = s.restriction_variable[r]
         is_decision = s.restriction_flags[r] & FLAG_DECISION
@@ -102,26 +113,24 @@ def retract(
     commit_trail(s)
     if not was_consistent:
         _schedule_all(s)
-    return [e for e in suspects if e not in gone]
+    return [e for e in suspects if not gone.has(e)]
 
 
-def _gather(s: Store, constraints: list[int], variables: list[int]) -> list[int]:
-    """List the constraints that go: the given ones and those on removed variables, each once."""
-    doomed = dict.fromkeys(constraints)
+def _gather(s: Store, variables: list[int], doomed: SparseSet) -> None:
+    """Add the constraints on removed variables to those that go."""
     for v in variables:
         for k in range(2):
             slot = s.mute_head[v] if k else s.watch_head[v]
             while slot >= 0:
-                doomed[s.slot_constraint[slot]] = None
+                doomed.add(s.slot_constraint[slot])
                 slot = s.slot_next[slot]
         for k in range(2):
             e = s.in_head[v] if k else s.out_head[v]
             while e >= 0:
                 if s.edge_link[e] >= 0:
-                    doomed[s.edge_link[e]] = None
+                    doomed.add(s.edge_link[e])
                 relax_by_edge(s, e)
                 e = s.in_next[e] if k else s.out_next[e]
-    return list(doomed)
 
 
 def edges_of(s: Store, v: int) -> list[int]:

@@ -1,5 +1,6 @@
 # The C types of `plan.py`.
 
+from runtime.constraints.domains.sparse_set cimport SparseSet
 from runtime.constraints.engine cimport Engine
 from runtime.plan.resources.resources cimport Resources
 from runtime.plan.store.rows cimport Rows
@@ -10,6 +11,7 @@ cdef long long NONE
 cdef class Plan:
     cdef public Engine engine
     cdef public Rows rows
+    cdef public SparseSet doomed_scopes, gone_restrictions, gone_variables
     cdef public long long[::1] code, block_start, block_end, field_kind
     cdef public long long[::1] field_value, field_start, field_length, field_names
     cdef public long long[::1] predicate_class, predicate_flags, predicate_timeline, predicate_resource

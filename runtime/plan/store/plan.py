@@ -3,6 +3,7 @@
 from typing import Protocol
 
 from runtime.constraints.domains.arrays import blank, lengthen
+from runtime.constraints.domains.sparse_set import SparseSet
 from runtime.constraints.engine import Engine
 from runtime.plan.resources.protocols import UseOrder
 from runtime.plan.resources.resources import Resources
@@ -44,6 +45,8 @@ class Plan:
     def __init__(self, engine: Engine) -> None:
         self.engine = engine
         self.rows = Rows()
+        # Work space of retraction: scopes, variables and restrictions that go.
+        self.doomed_scopes, self.gone_variables, self.gone_restrictions = SparseSet(64), SparseSet(64), SparseSet(64)
         # Bytecode.
         self.code = blank(1)
         self.block_start = blank(1)

@@ -11,19 +11,22 @@ cdef long long SUPPORT_RESTRICTION
 
 
 cdef class Leaving:
-    cdef public SparseSet variables, supports, near
+    cdef public SparseSet variables, supports, near, tokens
+    cdef public signed char[::1] doomed
 
 
-@cython.locals(t="long long")
+@cython.locals(going=list, t="long long")
 cpdef long long archive(Plan plan, list tokens, long long tick, Leaving leaving, object record) except? -1
 
 
-@cython.locals(child="long long", known=dict, t="long long")
-cpdef dict _removable(Plan plan, list tokens, long long tick)
+@cython.locals(
+    changed=bint, child="long long", doomed="signed char[::1]", i="long long", known=SparseSet, t="long long"
+)
+cpdef list _removable(Plan plan, list tokens, long long tick, Leaving leaving)
 
 
 @cython.locals(is_planned=bint)
-cpdef bint _is_free(Plan plan, long long t, dict doomed, long long tick) except -1
+cpdef bint _is_free(Plan plan, long long t, signed char[::1] doomed, long long tick) except -1
 
 
 cpdef bint _has_begun(Plan plan, long long t, long long tick) except -1
@@ -34,7 +37,7 @@ cpdef bint _has_waiting_guard(Plan plan, long long t) except -1
 
 
 @cython.locals(child="long long")
-cpdef void _orphan(Plan plan, long long t, dict doomed) except *
+cpdef void _orphan(Plan plan, long long t, signed char[::1] doomed) except *
 
 
 cpdef void detach(Plan plan, long long t) except *
@@ -43,7 +46,7 @@ cpdef void detach(Plan plan, long long t) except *
 @cython.locals(
     c="long long", going=SparseSet, gone=SparseSet, i="long long", k="long long", near=SparseSet, v="long long"
 )
-cpdef list _freeze(Plan plan, dict doomed, Leaving leaving)
+cpdef list _freeze(Plan plan, list doomed, Leaving leaving)
 
 
 @cython.locals(lower=double, r="long long", upper=double)
@@ -54,7 +57,7 @@ cpdef list _outdone(Plan plan, long long v)
     c="long long", e="long long", h="long long", i="long long", k="long long", kind="long long",
     s="long long", slot="long long", t="long long", v="long long",
 )
-cpdef void _gather(Plan plan, dict doomed, SparseSet gone, SparseSet going) except *
+cpdef void _gather(Plan plan, list doomed, SparseSet gone, SparseSet going) except *
 
 
 @cython.locals(is_lower_going=bint, is_real=bint, is_upper_going=bint, lower="long long", upper="long long")

@@ -6,6 +6,7 @@ begun goes with its parent, however long the other lasts. What went told others 
 span of the edge or constraint which said so, so explanations name the same lines.
 """
 
+from array import array
 from collections.abc import Callable
 
 from runtime.constraints.domains.sparse_set import SparseSet
@@ -41,66 +42,80 @@ class Leaving:
         self.variables = SparseSet(256)
         self.supports = SparseSet(256)
         self.near = SparseSet(256)
+        self.tokens = SparseSet(256)
+        self.doomed = array("b", bytes(256))  # by token
 
 
 def archive(
     plan: Plan, tokens: list[int], tick: int, leaving: Leaving, record: Callable[[list[int], int], None]
 ) -> int:
     """Take out those of `tokens`, which are over at `tick`, that may go, `record` them before; how many went."""
-    doomed = _removable(plan, tokens, tick)
-    if not doomed:
+    going = _removable(plan, tokens, tick, leaving)
+    if not going:
         return 0
-    record(list(doomed), tick)
-    frozen = _freeze(plan, doomed, leaving)
-    for t in doomed:
-        _orphan(plan, t, doomed)
-    remove_tokens(plan, list(doomed))
+    record(going, tick)
+    frozen = _freeze(plan, going, leaving)
+    for t in going:
+        _orphan(plan, t, leaving.doomed)
+    remove_tokens(plan, going)
     needless = [r for v in frozen for r in _outdone(plan, v)]
     if needless:
         plan.engine.retract((), (), needless, ())
-    return len(doomed)
+    return len(going)
 
 
-def _removable(plan: Plan, tokens: list[int], tick: int) -> dict[int, None]:
-    """The largest part of `tokens` of which no member is needed by a token outside."""
+def _removable(plan: Plan, tokens: list[int], tick: int, leaving: Leaving) -> list[int]:
+    """The largest part of `tokens` of which no member is needed by a token outside; `leaving.doomed` marks it."""
     rows = plan.rows
-    known = dict.fromkeys(tokens)
+    known = leaving.tokens
+    known.empty(rows.token_count)
+    for t in tokens:
+        known.add(t)
     for t in tokens:
         child = rows.children[t]
         while child >= 0:
             if rows.status[child] == MERGED and _has_begun(plan, rows.merged_into[child], tick):
-                known[child] = None
+                known.add(child)
             child = rows.sibling[child]
-    doomed: dict[int, None] = {}
-    for t in known:
-        if not plan.predicate_resource[rows.predicate[t]] and not _has_waiting_guard(plan, t):
-            doomed[t] = None
+    if len(leaving.doomed) < rows.token_count:
+        leaving.doomed = array("b", bytes(2 * rows.token_count))
+    doomed = leaving.doomed
+    for t in range(rows.token_count):
+        doomed[t] = 0
+    for i in range(known.count):
+        t = known.items[i]
+        doomed[t] = not plan.predicate_resource[rows.predicate[t]] and not _has_waiting_guard(plan, t)
     changed = True
     while changed:
         changed = False
-        for t in list(doomed):
-            if not _is_free(plan, t, doomed, tick):
-                del doomed[t]
+        for i in range(known.count):
+            t = known.items[i]
+            if doomed[t] and not _is_free(plan, t, doomed, tick):
+                doomed[t] = 0
                 changed = True
-    return doomed
+    found: list[int] = []
+    for i in range(known.count):
+        if doomed[known.items[i]]:
+            found.append(known.items[i])
+    return found
 
 
-def _is_free(plan: Plan, t: int, doomed: dict[int, None], tick: int) -> bool:
+def _is_free(plan: Plan, t: int, doomed: "array[int]", tick: int) -> bool:
     """Whether `t` can go together with the other `doomed` tokens."""
     rows = plan.rows
-    if rows.parent[t] >= 0 and rows.parent[t] not in doomed:
+    if rows.parent[t] >= 0 and not doomed[rows.parent[t]]:
         return False
-    if rows.status[t] == MERGED and rows.merged_into[t] not in doomed:
+    if rows.status[t] == MERGED and not doomed[rows.merged_into[t]]:
         if rows.parent[t] < 0 or not _has_begun(plan, rows.merged_into[t], tick):
             return False
     other = rows.merged[t]
     while other >= 0:
-        if other not in doomed:
+        if not doomed[other]:
             return False
         other = rows.merged_next[other]
     child = rows.children[t]
     while child >= 0:
-        if child not in doomed:
+        if not doomed[child]:
             is_planned = rows.status[child] == ACTIVE or rows.status[child] == MERGED
             if not is_planned or plan.engine.upper(rows.var0[child] + START) > tick:
                 return False
@@ -124,12 +139,12 @@ def _has_waiting_guard(plan: Plan, t: int) -> bool:
     return False
 
 
-def _orphan(plan: Plan, t: int, doomed: dict[int, None]) -> None:
+def _orphan(plan: Plan, t: int, doomed: "array[int]") -> None:
     """Let the children of `t` that stay stand by themselves."""
     child = plan.rows.children[t]
     while child >= 0:
         following = plan.rows.sibling[child]
-        if child not in doomed:
+        if not doomed[child]:
             plan.rows.detach(child)
         child = following
 
@@ -140,7 +155,7 @@ def detach(plan: Plan, t: int) -> None:
         plan.rows.detach(t)
 
 
-def _freeze(plan: Plan, doomed: dict[int, None], leaving: Leaving) -> list[int]:
+def _freeze(plan: Plan, doomed: list[int], leaving: Leaving) -> list[int]:
     """Put into base domains what edges and constraints that go with the `doomed` tokens say of other variables.
 
     Gives the variables that have got new limits.
@@ -185,7 +200,7 @@ def _outdone(plan: Plan, v: int) -> list[int]:
     return found
 
 
-def _gather(plan: Plan, doomed: dict[int, None], gone: SparseSet, going: SparseSet) -> None:
+def _gather(plan: Plan, doomed: list[int], gone: SparseSet, going: SparseSet) -> None:
     """Gather the variables that go, and in `going` what the edges, constraints and restrictions support by that go."""
     engine, rows = plan.engine, plan.rows
     for t in doomed:

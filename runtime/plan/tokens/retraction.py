@@ -26,9 +26,12 @@ from runtime.plan.tags import (
     SCOPE_BODY,
     SCOPE_INSERTION,
     SCOPE_MERGE,
+    SCOPE_SCRIPT,
     STATE,
 )
 from runtime.plan.tokens.timelines import await_order, has_any_pair, leave_sequence
+
+_LAST_KIND = SCOPE_SCRIPT  # of scopes
 
 
 class _Sweep:
@@ -64,12 +67,15 @@ def retract_branch(plan: Plan, s: int) -> bool:
     sweep = _Sweep()
     rows = plan.rows
     t = rows.scope_token[s]
-    doomed = {s}
+    inside = {s}
+    doomed = plan.doomed_scopes
+    doomed.empty(rows.scope_count)
     for each in reversed(_scopes_of(plan, t)):
-        if rows.scope_parent[each] in doomed:
-            doomed.add(each)
-    doomed.discard(s)
-    _drop_scopes(plan, t, doomed, sweep)
+        if rows.scope_parent[each] in inside:
+            inside.add(each)
+            if each != s:
+                doomed.add(each)
+    _drop_scopes(plan, t, sweep)
     rows.set_branch(s, BRANCH_WAITING)
     return _finish(plan, sweep)
 
@@ -94,7 +100,8 @@ def free(plan: Plan, first: int, second: int, span: int) -> bool:
         p = after
     for t in (first, second):
         if not has_any_pair(rows, t):
-            _drop_scopes(plan, t, {s for s in _scopes_of(plan, t) if rows.scope_kind[s] == SCOPE_INSERTION}, sweep)
+            _doom_scopes(plan, t, SCOPE_INSERTION, SCOPE_INSERTION)
+            _drop_scopes(plan, t, sweep)
             if rows.link_head[LISTS * t + LIST_ORDER] >= 0:
                 leave_sequence(plan, t, sweep.edges, span)
                 await_order(plan, t)
@@ -119,6 +126,17 @@ def _scopes_of(plan: Plan, t: int) -> list[int]:
     return found
 
 
+def _doom_scopes(plan: Plan, t: int, least: int, most: int) -> None:
+    """Choose the scopes of `t` that go: those of kinds from `least` to `most`."""
+    rows, doomed = plan.rows, plan.doomed_scopes
+    doomed.empty(rows.scope_count)
+    s = rows.scopes[t]
+    while s >= 0:
+        if least <= rows.scope_kind[s] <= most:
+            doomed.add(s)
+        s = rows.scope_next[s]
+
+
 def _deactivate(plan: Plan, t: int, sweep: _Sweep) -> None:
     """Collect what the state of `t` brought: rules, merge, insertion into a timeline, tokens merged into it."""
     rows = plan.rows
@@ -141,7 +159,8 @@ def _deactivate(plan: Plan, t: int, sweep: _Sweep) -> None:
     sweep.undecided.append(rows.var0[t] + STATE)
     sweep.reopened.append(t)
     if rows.scopes[t] >= 0:
-        _drop_scopes(plan, t, {s for s in _scopes_of(plan, t) if rows.scope_kind[s] != SCOPE_BODY}, sweep)
+        _doom_scopes(plan, t, SCOPE_BODY + 1, _LAST_KIND)
+        _drop_scopes(plan, t, sweep)
 
 
 def wake_guards(plan: Plan, v: int) -> None:
@@ -152,22 +171,23 @@ def wake_guards(plan: Plan, v: int) -> None:
                 plan.enqueue(plan.guard_of[c])
 
 
-def _drop_scopes(plan: Plan, t: int, doomed: set[int], sweep: _Sweep) -> None:
-    """Collect what scopes of `t` hold, and the children that they made; take the scopes off the token's list."""
-    if not doomed:
+def _drop_scopes(plan: Plan, t: int, sweep: _Sweep) -> None:
+    """Collect what doomed scopes of `t` hold, and the children that they made; take them off the token's list."""
+    rows, doomed = plan.rows, plan.doomed_scopes
+    if not doomed.count:
         return
-    rows = plan.rows
     s = rows.scopes[t]
     while s >= 0:
         following = rows.scope_next[s]
-        if s in doomed:
+        if doomed.has(s):
             take_off(rows.scopes, rows.scope_next, t, s)
             _collect_holds(plan, s, sweep)
             sweep.scopes.append(s)
         s = following
     child = rows.children[t]
     while child >= 0:
-        if rows.creator[child] in doomed:
+        creator = rows.creator[child]
+        if creator >= 0 and doomed.has(creator):
             sweep.tokens.append(child)
         child = rows.sibling[child]
 
@@ -209,18 +229,31 @@ def _finish(plan: Plan, sweep: _Sweep) -> bool:
         freed.append(t)
         _deactivate(plan, t, sweep)
         if rows.scopes[t] >= 0:
-            _drop_scopes(plan, t, set(_scopes_of(plan, t)), sweep)
+            _doom_scopes(plan, t, SCOPE_BODY, _LAST_KIND)
+            _drop_scopes(plan, t, sweep)
         unlink(rows, t, LIST_OPEN)
         rows.set_status(t, FREED)
         sweep.variables += range(rows.var0[t], rows.var0[t] + rows.width[t])
-    gone = set(sweep.variables)
+    gone, limits = plan.gone_variables, plan.gone_restrictions
+    gone.empty(engine.variables)
+    limits.empty(engine.restrictions_used)
+    for v in sweep.variables:
+        gone.add(v)
+    restrictions: list[int] = []
+    for r in sweep.restrictions:
+        if not gone.has(engine.restriction_variable[r]) and limits.add(r):
+            restrictions.append(r)
     for v in sweep.undecided:
-        sweep.restrictions += [r for r in engine.restrictions_of(v) if engine.restriction_flags[r] & FLAG_DECISION]
-    restrictions = [r for r in dict.fromkeys(sweep.restrictions) if engine.restriction_variable[r] not in gone]
+        r = NONE if gone.has(v) else engine.restriction_head[v]
+        while r >= 0:
+            if engine.restriction_flags[r] & FLAG_DECISION and limits.add(r):
+                restrictions.append(r)
+            r = engine.restriction_next[r]
     for r in restrictions:
         wake_guards(plan, engine.restriction_variable[r])
-    sweep.constraints += plan.resources.take_refusals()
-    if gone:
+    if plan.resources.refusals:
+        sweep.constraints += plan.resources.take_refusals()
+    if gone.count:
         _forget_foreign(plan, sweep.variables)
     engine.retract(sweep.constraints, sweep.edges, restrictions, sweep.variables)
     for s in sweep.scopes:

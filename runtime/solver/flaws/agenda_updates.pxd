@@ -16,9 +16,10 @@ cdef long long UNDO_NEW_TOKEN, UNDO_STATUS
 
 
 @cython.locals(
-    after="long long", constant="signed char[::1]", decided="signed char[::1]", engine=Engine, exact=bint,
-    first="long long", kinds="signed char[::1]", mask="long long", owners="long long[::1]", role="long long",
-    roles="long long[::1]", rows=Rows, s="long long", t="long long", v="long long",
+    after="long long", constant="signed char[::1]", count="long long", decided="signed char[::1]", each="long long",
+    engine=Engine, exact=bint, first="long long", kinds="signed char[::1]", mask="long long", number="long long",
+    owners="long long[::1]", role="long long", roles="long long[::1]", rows=Rows, s="long long", t="long long",
+    v="long long",
 )
 cpdef int rebuild(Agenda agenda) except -1
 

@@ -47,32 +47,30 @@ def rebuild(agenda: Agenda) -> None:
     engine, rows, exact = agenda.engine, agenda.rows, agenda.exact
     kinds, constant, decided = engine.kind, engine.constant, engine.decided
     roles, owners = agenda.plan.variable_role, agenda.plan.variable_owner
-    first = after = NONE  # the variables of the token at hand, which stand side by side
-    mask = 0  # which of them may be flaws
-    v = NONE
-    while v + 1 < engine.variables:
-        v += 1
-        if kinds[v] < 0 or constant[v]:
-            continue
+    count = engine.variables
+    v = 0
+    while v < count:
         role = roles[v]
-        if role == ROLE_INTERNAL:
+        if role == ROLE_INTERNAL or kinds[v] < 0 or constant[v]:
+            v += 1
             continue
+        first, after, mask = v, v + 1, _ONE  # which of the variables that stand side by side may be flaws
         if role == ROLE_TOKEN:
-            if v >= after:
-                t = owners[v]
-                first, after = rows.var0[t], rows.var0[t] + rows.width[t]
-                mask = _unbound_mask(agenda, t) if rows.status[t] == ACTIVE else 0
-            if mask == 0:
-                v = after - 1
-                continue
-            if not mask >> min(v - first, _LAST_BIT) & 1:
-                continue
-        # What is decided, which most are, is never a flaw.
-        if decided[v] or (role == ROLE_LOCAL and rows.status[owners[v]] != ACTIVE):
+            t = owners[v]
+            first, after = rows.var0[t], rows.var0[t] + rows.width[t]
+            mask = _unbound_mask(agenda, t) if rows.status[t] == ACTIVE else 0
+        elif role == ROLE_LOCAL and rows.status[owners[v]] != ACTIVE:
+            mask = 0
+        v = after
+        if mask == 0:
             continue
-        if not exact and is_single(engine, v) and is_base_single(engine, v):
-            continue
-        _add_variable(agenda, v)
+        for number in range(after - first):
+            each = first + number
+            # What is decided, which most are, is never a flaw.
+            if not mask >> min(number, _LAST_BIT) & 1 or decided[each] or kinds[each] < 0 or constant[each]:
+                continue
+            if exact or not is_single(engine, each) or not is_base_single(engine, each):
+                _add_variable(agenda, each)
     for s in range(agenda.rows.scope_count):
         if agenda.rows.scope_watch[s] >= 0 and agenda.rows.scope_branch[s] == BRANCH_WAITING:
             agenda.waiting_guards[0] += 1

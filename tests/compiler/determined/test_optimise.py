@@ -10,7 +10,7 @@ from compiler.determined import code
 from compiler.determined.code import BlockToken, RegisterLayout
 from compiler.determined.items import Context
 from compiler.determined.linear import linear
-from compiler.determined.optimise import BlockFacts, optimise
+from compiler.determined.optimise import BlockFacts, optimise, packed
 from compiler.determined.schedule import Placed
 from compiler.program import ParameterCode, PredicateCode, TypeCode
 from runtime.determined.machine import Machine
@@ -95,6 +95,7 @@ def test_optimised_code_does_what_plain_code_does(seed: int) -> None:
         given = frozenset(k for k in PARAMETERS if chance.random() < 0.4)
         placed, passing = random_block(chance, given)
         optimised, is_sure = optimise(placed, known(given, passing))
+        optimised = packed(optimised)
         shorter += len(linear(placed)) - len(linear(optimised))
         for _ in range(8):
             registers = [chance.choice([0.0, 1.0, 2.0, -1.5]) for _ in range(OWN.stop)]
@@ -152,3 +153,23 @@ def test_a_value_is_compared_only_where_two_branches_may_both_tell_it(other: int
     optimised, _ = optimise(placed, known(frozenset(), frozenset()))
     assert optimised[-1][1] == (left, 6, 11)
     assert code.UNLESS_SAME in [instruction[0] for instruction in linear(optimised)]
+
+
+def test_copies_that_follow_each_other_are_three_to_an_instruction() -> None:
+    inner: Context = ((16, True),)
+    plain: list[Placed] = [
+        ((), (code.COPY, 1, 9)),
+        ((), (code.MOVE, 2, 10, 2)),
+        ((), (code.COPY, 4, 1)),
+        (inner, (code.COPY, 5, 9)),
+        (inner, (code.MOVE, 20, 30, 9)),
+    ]
+    found = packed(plain)
+    assert [instruction for _, instruction in found] == [
+        (code.COPIES, 1, 9, 2, 10, 3, 11),
+        (code.COPY, 4, 1),
+        (code.COPY, 5, 9),
+        (code.MOVE, 20, 30, 9),
+    ]
+    registers = [float(k) for k in range(60)]
+    assert carried_out(found[:2], registers, True) == carried_out(plain[:3], registers, True)
