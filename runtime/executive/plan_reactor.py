@@ -50,7 +50,7 @@ class PlanReactor(TeleoReactor):
         self.timelines = [bench.timeline(name, True) for name in self.internal]
         self.timelines += [bench.timeline(name, False) for name in self.external]
         for line in self.timelines:
-            line.accepts_requests = bench.accepts_requests(line.object_id)
+            line.accepts_requests = bench.accepts_requests(line.object_id) and line.name not in configuration.observe
             line.is_early = line.name in configuration.early
             line.is_late = line.name in configuration.late
         bench.late_objects = {line.object_id for line in self.timelines if line.is_internal and not line.is_early}
@@ -158,6 +158,7 @@ class PlanReactor(TeleoReactor):
                 broke = failures[0]
                 self.goals.note_repair(Repair(tick, event, broke.reason, broke.conflict, broke.deadlock), watched)
                 self.relaxes += 1
+                self.planner.kept_depth = 0
                 self.dispatch.is_repaired = True
                 if attempt == 1:
                     self.bench.recorder.agreed = None
@@ -282,7 +283,7 @@ class PlanReactor(TeleoReactor):
         if self.planner.is_fresh:
             self.goals.take_in(tick, tick + self.reach)
         if self.is_out_of_steps():
-            self.planner.keep()
+            self.planner.pause()
             return False
         self.steps_made += 1
         outcome = self.planner.deliberate(tick, min(tick + self.reach, self.final_tick))
