@@ -98,8 +98,8 @@ def test_both_files_tell_the_same_agent(place: Path, capsys: pytest.CaptureFixtu
         ('<RealTimeClock millis="500"/>', "<StepClock/><FastClock/>", "NDDL709", "a clock `FastClock`", "<FastClock"),
         ('model="psim.nddl"', 'synch_cfg="s.xml" model="psim.nddl"', "NDDL727", "no effect", "synch_cfg"),
         ('<Internal name="gps"/>', '<Internal name="gps" goals="0"/>', "NDDL727", "`goals` has no effect", "goals="),
-        ('<Internal name="gps"/>', '<Internal name="gps" listen="1"/>', "NDDL727", "`listen` has no effect", "listen="),
-        ('<Internal name="gps"/>', '<Internal name="gps" goals="no"/>', "NDDL704", "`true` or `false`, not `no`", "goals="),
+        ('<Internal name="gps"/>', '<Internal name="gps" listen="1"/>', "NDDL727", "`listen` has no effect", "listen"),
+        ('<Internal name="gps"/>', '<Internal name="gps" goals="no"/>', "NDDL704", "`true` or `false`, not", "goals="),
         ('model="navigator.nddl"', 'model="nobody.nddl"', "NDDL708", "no file `nobody.nddl`", "config="),
     ],
 )
