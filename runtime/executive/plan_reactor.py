@@ -92,8 +92,12 @@ class PlanReactor(TeleoReactor):
         self.is_stirred = False
 
     def notify(self, observation: Observation) -> None:
-        """Take note of what an owner published this tick; the last word counts. What cannot matter waits."""
-        if not (self.tick < observation.tick and self.deferral.takes(observation)):
+        """Take note of what an owner published this tick; the last word counts. What cannot matter waits.
+
+        That an owner died while it planned is news of the next tick, for who sleeps as for who is awake.
+        """
+        is_past = self.tick < observation.tick and self.trace.phase is not Phase.DELIBERATE
+        if not (is_past and self.deferral.takes(observation)):
             self.by_name[observation.timeline].news = observation
             self.is_stirred = True
             self.due = observation.tick
