@@ -33,6 +33,7 @@ _MODELLED = {
 }
 _CODED = {"name": "name", "latency": "latency", "code": "code"}
 _UNREAD = ("config", "log", "verbose", "all_plans", "relation_gv")  # what T-REX writes beside the mission
+_FLAGS = {"true": True, "1": True, "false": False, "0": False}
 _TIMES = ("start", "end", "duration")
 _DOMAINS = ("int", "float", "bool", "string", "symbol", "enum", "date", "duration")
 _CONTENTS = ("Use", "Plugin", "Goal", "EuropaReactor", "PythonReactor", *_CLOCKS)
@@ -114,7 +115,7 @@ class _AgentFile:
             if same is not None:
                 self.text.diagnostics.append(NO_EFFECT.at(same.span, what="synch_cfg", help=_ONE_SOLVER))
             self._attributes(element, table, path, known, (*_UNREAD, "synch_cfg"))
-        lines: dict[str, list[str]] = {"internal": [], "external": []}
+        lines: dict[str, list[str]] = {"internal": [], "external": [], "observe": []}
         for child in element.children:
             key = child.tag.lower()
             name = child.find("name")
@@ -126,8 +127,30 @@ class _AgentFile:
                 self._put((*path, key, len(lines[key])), name.span)
                 lines[key].append(name.value)
                 self._attributes(child, {}, (), {"name": "name"}, ("goals", "listen"))
+                if self._only_observes(child, is_coded=known is _CODED):
+                    self._put((*path, "observe", len(lines["observe"])), name.span)
+                    lines["observe"].append(name.value)
         table |= {key: names for key, names in lines.items() if names}
         self.reactors.append(table)
+
+    def _only_observes(self, timeline: Element, *, is_coded: bool) -> bool:
+        """Whether a reactor with a model never asks for anything there: `goals="false"`, of timelines that it uses."""
+        asks = True
+        for attribute in timeline.attributes:
+            if attribute.name not in ("goals", "listen"):
+                continue
+            given = _FLAGS.get(attribute.value)
+            if given is None:
+                wanted, found = "`true` or `false`", f"`{attribute.value}`"
+                self.text.diagnostics.append(
+                    WRONG_TYPE.at(attribute.span, key=attribute.name, wanted=wanted, found=found)
+                )
+            elif attribute.name == "goals" and timeline.tag == "External" and not is_coded:
+                asks = given
+            elif given is not (attribute.name == "goals"):  # the other value is what happens anyway
+                advice = _ASKS_ITSELF if attribute.name == "goals" else _NO_PLANS
+                self.text.diagnostics.append(NO_EFFECT.at(attribute.span, what=attribute.name, help=advice))
+        return not asks
 
     def _goal(self, element: Element) -> None:
         path: Keys = ("goal", len(self.goals))
@@ -238,6 +261,8 @@ class _AgentFile:
 
 
 _NO_PLUGIN = 'reactors in Python are loaded by `<PythonReactor code="file.py:Class"/>`'
+_ASKS_ITSELF = "the owner decides what it takes, and a reactor in Python what it asks for"
+_NO_PLANS = "plans are not published, only observations"
 _ONE_SOLVER = "the present is synchronised with the flaw handling of `plan_cfg`"
 
 

@@ -12,7 +12,7 @@ from typing import cast
 
 from checker.agent_file import read_agent_file
 from checker.batch_xml import read_batch
-from checker.codes import CYCLE, NO_FILE, NO_GOALS, NO_OWNER, NO_TEXT_FILE, NOT_TOML, TWICE
+from checker.codes import CYCLE, NO_FILE, NO_GOALS, NO_OWNER, NO_TEXT_FILE, NOT_TOML, TWICE, UNKNOWN_CHOICE
 from checker.figures import Figures, read_figures
 from checker.goal_fit import goals_out_of_time
 from checker.losses import Limit
@@ -204,6 +204,7 @@ def _read_model(table: Table) -> ReactorConfiguration:
         solver=table.string("solver", "") or None,
         early=table.strings("early"),
         late=table.strings("late"),
+        observe=table.strings("observe"),
         max_steps=table.whole("max_steps", 0, 0) or None,
         max_depth=table.whole("max_depth", 0, 0) or None,
     )
@@ -232,6 +233,8 @@ def _read_reactors(
         if reactor.name in names:
             _complain_of_twin(table, span, "the reactor", reactor.name, names[reactor.name])
         names.setdefault(reactor.name, span)
+        if isinstance(reactor, ReactorConfiguration):
+            _look_at_names(table, reactor)
         for index, timeline in enumerate(reactor.internal):
             span = table.text.value_span((*table.path, "internal", index))
             if timeline in owners:
@@ -251,6 +254,16 @@ def _read_reactors(
         tuple(one for one in reactors if isinstance(one, ReactorConfiguration)),
         tuple(one for one in reactors if isinstance(one, CodeConfiguration)),
     )
+
+
+def _look_at_names(table: Table, reactor: ReactorConfiguration) -> None:
+    """Complain of timelines that a reactor treats in some way and does not own, or does not use."""
+    for key, known in (("early", reactor.internal), ("late", reactor.internal), ("observe", reactor.external)):
+        for index, timeline in enumerate(getattr(reactor, key)):
+            if timeline not in known:
+                span = table.text.value_span((*table.path, key, index))
+                choices = ", ".join(known) or "nothing"
+                table.text.diagnostics.append(UNKNOWN_CHOICE.at(span, key=key, found=timeline, choices=choices))
 
 
 def _are_owners_told(tables: list[Table]) -> bool:

@@ -32,7 +32,7 @@ from nddl_lang.semantics.natives import SELF_ACTIVATING, TIMELINE
 from nddl_lang.semantics.schema import EnumValue, GlobalReference, Kind, Predicate, Variable
 from nddl_lang.text.source import Span
 
-_TIMELINES = ("internal", "external", "early", "late", "timeline")
+_TIMELINES = ("internal", "external", "early", "late", "observe", "timeline")
 _FIGURES = ("path", "during", "phases", "targets")  # timelines
 _GIVEN = (("goal", "parameters"), ("property", "parameters"))  # tables of arguments
 _OBJECTS = {**dict.fromkeys(_TIMELINES, (TIMELINE,)), "resource": tuple(sorted(SELF_ACTIVATING))}  # by key: of a class

@@ -160,6 +160,7 @@ class DeterminedReactor(TeleoReactor):
         """Put on record what was carried out ahead, up to a tick that has passed."""
         if self.general is None:
             self.publisher.tell(tick, 0)
+            self.tick = tick  # what is on record has happened, also if the mission ends before the next tick of its own
 
     # ---- the future ----
 

@@ -31,8 +31,9 @@ class ReactorConfiguration:
     solver: str | None = None  # path of its flaw handling, relative to the agent's root
     early: tuple[str, ...] = ()  # timelines on which what is planned starts as soon as it may, asked for or not
     late: tuple[str, ...] = ()  # on which what nobody asked for starts only when it must: the default comes before it
+    observe: tuple[str, ...] = ()  # timelines that it uses and never asks for anything, whatever its model allows
     max_steps: int | None = None  # planner decisions in one tick
-    max_depth: int | None = None  # planner decisions in force at once
+    max_depth: int | None = None  # planner decisions in force at once, over all ticks of an episode
 
 
 @dataclass(frozen=True, slots=True)

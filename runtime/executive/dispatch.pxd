@@ -54,5 +54,5 @@ cdef class Dispatch:
     @cython.locals(numbers=list, token="long long")
     cpdef list recalls(self, long long tick)
 
-    @cython.locals(bench=Workbench, earliest="long long", is_same=bint)
+    @cython.locals(bench=Workbench, earliest="long long", first_end="long long", is_refused=bint)
     cpdef bint _is_void(self, request, long long token, long long key, long long tick) except -1

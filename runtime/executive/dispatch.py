@@ -168,9 +168,9 @@ class Dispatch:
         start = (earliest, whole_bound(bench.upper(bench.start(token))))
         if self.owner_windows.get(timeline, (0, 1))[1] <= 1:
             return TimeBounds(start, (-INFINITY, INFINITY), (1, INFINITY))
-        length = bench.duration(token)
+        end, length = bench.end(token), bench.duration(token)
         duration = (whole_bound(bench.lower(length)), whole_bound(bench.upper(length)))
-        return TimeBounds(start, (-INFINITY, whole_bound(bench.upper(bench.end(token)))), duration)
+        return TimeBounds(start, (whole_bound(bench.lower(end)), whole_bound(bench.upper(end))), duration)
 
     def open_requests(self) -> list[int]:
         """Numbers of the requests that have been made and are not over."""
@@ -203,7 +203,8 @@ class Dispatch:
     def _is_void(self, request: Request, token: int, key: int, tick: int) -> bool:
         """Whether the plan does not wait for a request: its token is gone, or is to begin anew or otherwise.
 
-        A repair may have cut a token loose from the observation that it had met, or planned it for another time.
+        A repair may have cut a token loose from the observation that it had met, or planned it for another time. What
+        an owner gave up is asked for anew where the plan leaves it more room than it did.
         """
         bench = self.bench
         if not (bench.is_alive(token, key) and bench.is_active(token)):
@@ -212,10 +213,21 @@ class Dispatch:
             return False
         if request.number in self.begun:
             return True
-        if not self.is_repaired:
+        is_refused = request.number in self.refused
+        if not self.is_repaired and not is_refused:
             return False
         now = self._bounds(request.timeline, token, tick)
-        earliest = max(tick + 1, request.start[0])
-        is_same = now.start == (earliest, request.start[1])
-        is_same = is_same and (now.end, now.duration) == (request.end, request.duration)
-        return not is_same or bench.arguments(token) != request.arguments
+        wanted = (now.start, now.end, now.duration)
+        if is_refused and _is_wider(wanted, (request.start, request.end, request.duration)):
+            return True
+        if not self.is_repaired:
+            return False
+        earliest = max(tick + 1, request.start[0])  # as time goes on, a request bears later times by itself
+        first_end = -INFINITY if request.end[0] == -INFINITY else max(earliest + request.duration[0], request.end[0])
+        asked = ((earliest, request.start[1]), (first_end, request.end[1]), request.duration)
+        return wanted != asked or bench.arguments(token) != request.arguments
+
+
+def _is_wider(one: tuple[tuple[int, int], ...], other: tuple[tuple[int, int], ...]) -> bool:
+    """Whether one of some intervals reaches beyond its like of the other ones."""
+    return any(low < least or high > most for (low, high), (least, most) in zip(one, other, strict=True))

@@ -50,7 +50,7 @@ class PlanReactor(TeleoReactor):
         self.timelines = [bench.timeline(name, True) for name in self.internal]
         self.timelines += [bench.timeline(name, False) for name in self.external]
         for line in self.timelines:
-            line.accepts_requests = bench.accepts_requests(line.object_id)
+            line.accepts_requests = bench.accepts_requests(line.object_id) and line.name not in configuration.observe
             line.is_early = line.name in configuration.early
             line.is_late = line.name in configuration.late
         bench.late_objects = {line.object_id for line in self.timelines if line.is_internal and not line.is_early}
@@ -92,8 +92,12 @@ class PlanReactor(TeleoReactor):
         self.is_stirred = False
 
     def notify(self, observation: Observation) -> None:
-        """Take note of what an owner published this tick; the last word counts. What cannot matter waits."""
-        if not (self.tick < observation.tick and self.deferral.takes(observation)):
+        """Take note of what an owner published this tick; the last word counts. What cannot matter waits.
+
+        That an owner died while it planned is news of the next tick, for who sleeps as for who is awake.
+        """
+        is_past = self.tick < observation.tick and self.trace.phase is not Phase.DELIBERATE
+        if not (is_past and self.deferral.takes(observation)):
             self.by_name[observation.timeline].news = observation
             self.is_stirred = True
             self.due = observation.tick
@@ -158,6 +162,7 @@ class PlanReactor(TeleoReactor):
                 broke = failures[0]
                 self.goals.note_repair(Repair(tick, event, broke.reason, broke.conflict, broke.deadlock), watched)
                 self.relaxes += 1
+                self.planner.kept_depth = 0
                 self.dispatch.is_repaired = True
                 if attempt == 1:
                     self.bench.recorder.agreed = None
@@ -282,7 +287,7 @@ class PlanReactor(TeleoReactor):
         if self.planner.is_fresh:
             self.goals.take_in(tick, tick + self.reach)
         if self.is_out_of_steps():
-            self.planner.keep()
+            self.planner.pause()
             return False
         self.steps_made += 1
         outcome = self.planner.deliberate(tick, min(tick + self.reach, self.final_tick))

@@ -39,10 +39,12 @@ cdef class Planner:
     cdef public object max_steps, max_depth, missed
     cdef public bint is_fresh
     cdef public dict rejections
-    cdef public long long resolved
+    cdef public long long kept_depth, resolved
 
     @cython.locals(is_deep=bint, outcome="long long")
     cpdef long long deliberate(self, long long tick, long long end) except? -1
+
+    cpdef int pause(self) except -1
 
     cpdef int keep(self) except -1
 

@@ -7,7 +7,7 @@ from runtime.executive.outcome import Conflict, Deadlock, Reason, ReasonKind
 from runtime.executive.story import SearchLog, conflict_of
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, LIST_THREAT, LISTS, ROLE_LOCAL, ROLE_TOKEN
-from runtime.solver.configuration.configuration import Configuration, FlawFilter
+from runtime.solver.configuration.configuration import Configuration, FlawFilter, Match
 from runtime.solver.flaws.filters import PlanningScope
 from runtime.solver.search import Solver
 from runtime.solver.tags import EXHAUSTED, PLAN
@@ -15,6 +15,10 @@ from runtime.solver.tags import EXHAUSTED, PLAN
 _NO_LIMIT = 2**62
 _NEVER = -1
 _MOST_STEPS = 1_000_000  # decisions about one present that the engine makes, if nobody sets a limit
+_TIMES = (
+    *[Match(variable=name) for name in ("start", "end", "duration")],
+    *[Match(class_name=owner, variable="time") for owner in ("Resource", "Reservoir")],
+)
 _MOST_EXPLAINED = 2_000  # decisions of a search that is repeated to find out why it failed
 
 # How an episode of planning stands: a decision was made, nothing is left to do, there is no plan, or what ran out.
@@ -110,6 +114,7 @@ class Planner:
         self.solver.agenda.earliest = True
         self.max_steps = max_steps
         self.max_depth = max_depth
+        self.kept_depth = 0  # the decisions of this episode that were kept when the steps of a tick ran out
         self.is_fresh = True
         self.resolved = _NEVER  # the propagation after which the present had no flaws, without a decision
         self.missed: Callable[[], list[int]] = list  # the goals that are rejected and that nobody was told of
@@ -130,13 +135,21 @@ class Planner:
         if outcome == PLAN:
             self._explain_rejections()
             self.keep()
+            self.kept_depth = 0
             return EPISODE_DONE
-        is_deep = self.max_depth is not None and self.solver.depth > self.max_depth
+        is_deep = self.max_depth is not None and self.kept_depth + self.solver.depth > self.max_depth
         if outcome == EXHAUSTED or is_deep:
             self.solver.undo_all()
+            self.kept_depth = 0
             self.is_fresh = True
             return EPISODE_EXHAUSTED if outcome == EXHAUSTED else EPISODE_TOO_DEEP
         return EPISODE_MOVED
+
+    def pause(self) -> None:
+        """Make what has been decided final, in an episode that goes on when there are steps again."""
+        if not self.is_fresh:
+            self.kept_depth += self.solver.depth
+            self.keep()
 
     def keep(self) -> None:
         """Make what has been decided final."""
@@ -155,12 +168,12 @@ class Planner:
         outcome = solver.solve(steps, depth)
         solver.max_steps = solver.max_depth = _NO_LIMIT
         self.resolved = _NEVER
-        if outcome == PLAN:
+        is_deep = solver.depth > depth
+        if outcome == PLAN and not is_deep:
             if solver.steps + solver.failures == made and solver.relief is None:
                 self.resolved = self.bench.engine.epoch
             self._explain_rejections()
             return EPISODE_DONE
-        is_deep = solver.depth > depth
         solver.undo_all()
         if outcome == EXHAUSTED:
             return EPISODE_EXHAUSTED
@@ -214,9 +227,18 @@ class Planner:
 
 
 def _within_window(configuration: Configuration) -> Configuration:
-    """The configuration as a reactor has it: the window replaces the horizon that it may filter by."""
-    managers = [replace(each, filters=_without_horizon(each.filters)) for each in configuration.managers]
-    clock = FlawFilter(match=replace(FlawFilter().match, variable="AGENT_CLOCK"))
+    """The configuration as a reactor has it: the window replaces the horizon that it may filter by.
+
+    Times are left to the execution, but for those that a handler names.
+    """
+    managers = []
+    for each in configuration.managers:
+        filters = _without_horizon(each.filters)
+        if each.component == "UnboundVariableManager":
+            named = {handler.match.variable for handler in each.handlers}
+            filters += tuple([FlawFilter(match=match) for match in _TIMES if match.variable not in named])
+        managers.append(replace(each, filters=filters))
+    clock = FlawFilter(match=Match(variable="AGENT_CLOCK"))
     filters = (*_without_horizon(configuration.filters), clock)
     return replace(configuration, filters=filters, managers=tuple(managers))
 

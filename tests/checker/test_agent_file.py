@@ -97,6 +97,9 @@ def test_both_files_tell_the_same_agent(place: Path, capsys: pytest.CaptureFixtu
         ("</Agent>", "", "NDDL751", "no element found", None),
         ('<RealTimeClock millis="500"/>', "<StepClock/><FastClock/>", "NDDL709", "a clock `FastClock`", "<FastClock"),
         ('model="psim.nddl"', 'synch_cfg="s.xml" model="psim.nddl"', "NDDL727", "no effect", "synch_cfg"),
+        ('<Internal name="gps"/>', '<Internal name="gps" goals="0"/>', "NDDL727", "`goals` has no effect", "goals="),
+        ('<Internal name="gps"/>', '<Internal name="gps" listen="1"/>', "NDDL727", "`listen` has no effect", "listen"),
+        ('<Internal name="gps"/>', '<Internal name="gps" goals="no"/>', "NDDL704", "`true` or `false`, not", "goals="),
         ('model="navigator.nddl"', 'model="nobody.nddl"', "NDDL708", "no file `nobody.nddl`", "config="),
     ],
 )
@@ -114,6 +117,13 @@ def test_mistakes_are_told_with_their_places(
     assert words in one.message
     if at is not None:
         assert one.span.begin == text.index(at)
+
+
+@pytest.mark.parametrize(("given", "observed"), [("1", ()), ("true", ()), ("0", ("helm",)), ("false", ("helm",))])
+def test_who_sends_no_goals_to_a_timeline_only_observes_it(place: Path, given: str, observed: tuple[str, ...]) -> None:
+    (place / "navigator.xml").write_text(NAVIGATOR.replace('goals="1"', f'goals="{given}" listen="false"'))
+    navigator = agent_in(place / "agent.xml").reactors[0]
+    assert (navigator.external, navigator.observe) == (("helm", "gps"), observed)
 
 
 def test_reactors_in_python_have_their_settings(place: Path) -> None:

@@ -179,6 +179,14 @@ def test_a_mistake_in_what_depends_is_named_where_it_stands(text: str, line: int
             ),
         ),
         (
+            'early = ["nva"]\n',
+            (15, '"nva"', "NDDL707", "`early` cannot be `nva`; it is one of gps", None),
+        ),
+        (
+            'observe = ["nav"]\n',
+            (15, '"nav"', "NDDL707", "`observe` cannot be `nav`; it is one of nothing", None),
+        ),
+        (
             '[parameters.A]\ndistribution = "discrete"\n',
             (15, "parameters.A", "NDDL713", "a discrete distribution needs `values`, a list of numbers", None),
         ),

@@ -60,8 +60,8 @@ def test_objects_within_objects_come_to_an_end() -> None:
     assert "`A`" in fault.message
     two = "class B; class A { B b; A() { b = new B(); } } class B { A a; B() { a = new A(); } }"
     assert stopped(f"{two} A x = new A();").code.kind == "rule"
-    deep = "".join(f"class C{k} {{ C{k - 1} c; C{k}() {{ c = new C{k - 1}(); }} }}\n" for k in range(1, 60))
-    loaded(f"class C0 {{ }}\n{deep}C59 c = new C59();")
+    deep = "".join(f"class C{k} {{ C{k - 1} c; C{k}() {{ c = new C{k - 1}(); }} }}\n" for k in range(1, 400))
+    loaded(f"class C0 {{ }}\n{deep}C399 c = new C399();")
 
 
 def test_the_constructor_of_the_farthest_ancestor_is_run() -> None:

@@ -1,6 +1,6 @@
 """Objects: members, names, constructors; open variables of their classes grow with them."""
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from dataclasses import dataclass
 
 from compiler.program import Assign, ClassCode, ConstructorCode, NewObject, Program, SuperCode, TypeCode
@@ -19,8 +19,6 @@ from runtime.plan.store.plan import Plan
 from runtime.plan.store.prototypes import Prototypes
 from runtime.plan.store.scopes import make_variable
 from runtime.plan.tags import INITIAL, MINIMUM, NONE, ROLE_INTERNAL, ROLE_MEMBER, SCOPE_SCRIPT
-
-_DEEPEST = 100  # objects within objects; no model means more
 
 OperandCode = tuple[int, int]  # an operand in bytecode
 
@@ -57,6 +55,7 @@ class Fill:
 
 
 Step = Super | Fill | int  # of a constructor: one of the above or the number of a block
+_Making = Generator["_Making", int | Diagnostic, int | Diagnostic]  # yields what must be made first
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -79,7 +78,7 @@ class Objects:
         self.names: list[str] = []
         self.numbers: dict[str, int] = {}
         self.fault: Diagnostic | None = None
-        self.depth = 0  # of the object under construction within others
+        self.unfinished: set[tuple[int, int]] = set()  # the classes and constructors that are under way
         self.constructors = [[self.prepare(each) for each in class_.constructors] for class_ in program.classes]
         self.in_rules = [self.prepare_new(new) for new in code.objects]
 
@@ -172,13 +171,32 @@ class Objects:
         return self.plan.object_constant[made]
 
     def make(self, new: New, scope: int, parent: str | None) -> int | Diagnostic:
-        """Carry out a `new`; the object, or what is wrong."""
+        """Carry out a `new`; the object, or what is wrong.
+
+        A stack of its own holds the objects around it: parts of parts may be deeper than Python's stack.
+        """
+        around: list[_Making] = [self._making(new, scope, parent)]
+        made: int | Diagnostic | None = None
+        while around:
+            try:
+                inner = next(around[-1]) if made is None else around[-1].send(made)
+            except StopIteration as done:
+                around.pop()
+                made = done.value
+            else:
+                around.append(inner)
+                made = None
+        assert made is not None
+        return made
+
+    def _making(self, new: New, scope: int, parent: str | None) -> "_Making":
+        """The making of an object, and of those that it is given or has as parts, each when its turn comes."""
         plan = self.plan
         span = self.code.span(new.span)
         arguments = []
         for each in new.arguments:
             if isinstance(each, New):
-                inner = self.make(each, scope, parent)
+                inner = yield self._making(each, scope, parent)
                 if isinstance(inner, Diagnostic):
                     return inner
                 arguments.append(plan.object_constant[inner])
@@ -187,14 +205,17 @@ class Objects:
         if self.prototypes.is_closed[new.class_number]:
             return CLOSED_CLASS.at(new.span, name=self.program.classes[new.class_number].name)
         o = self._allocate(new.class_number, new.name if parent is None or new.name is None else f"{parent}.{new.name}")
-        if self.depth == _DEEPEST:
+        kind = (new.class_number, new.constructor)
+        if kind in self.unfinished:  # constructors have no branches: this one comes here again and again
             return ENDLESS_OBJECT.at(new.span, name=self.program.classes[new.class_number].name)
-        self.depth += 1
-        fault = self._construct(new.class_number, new.constructor, o, arguments)
-        self.depth -= 1
+        self.unfinished.add(kind)
+        fault = yield from self._constructing(new.class_number, new.constructor, o, arguments)
+        self.unfinished.remove(kind)
         return fault or o
 
-    def _construct(self, number: int, chosen: int, o: int, arguments: list[int]) -> Diagnostic | None:
+    def _constructing(
+        self, number: int, chosen: int, o: int, arguments: list[int]
+    ) -> "Generator[_Making, int | Diagnostic, Diagnostic | None]":
         """Run a constructor of class `number` on object `o`; arguments pass their current domains.
 
         A stack of its own holds those of the ancestors: a chain of classes may be longer than Python's stack.
@@ -216,7 +237,10 @@ class Objects:
                     passed = [operand(plan, scope, kind, value, self.code.span(span)) for kind, value in codes]
                     running.append(self._enter(base, of_base, o, passed))
                 case Fill():
-                    fault = self.fill(step, scope, o)
+                    part: int | Diagnostic | None = None
+                    if isinstance(step.value, New):
+                        part = yield self._making(step.value, scope, self.names[o])
+                    fault = part if isinstance(part, Diagnostic) else self._fill(step, scope, o, part)
                 case _:
                     plan.push(plan.block_start[step], plan.block_end[step], scope, NONE, NONE)
                     run(plan)
@@ -236,15 +260,18 @@ class Objects:
             plan.rows.set_slot(scope, slot, copy_current(plan, prototype, argument))
         return scope, iter(constructor.steps)
 
-    def fill(self, step: Fill, scope: int, o: int | None) -> Diagnostic | None:
-        """Carry out an assignment; `o` is the object under construction."""
+    def fill(self, step: Fill, scope: int) -> Diagnostic | None:
+        """Carry out an assignment of the script."""
+        made = self.make(step.value, scope, None) if isinstance(step.value, New) else None
+        return made if isinstance(made, Diagnostic) else self._fill(step, scope, None, made)
+
+    def _fill(self, step: Fill, scope: int, o: int | None, made: int | None) -> Diagnostic | None:
+        """Carry out an assignment; `o` is the object under construction, `made` the new one that is assigned."""
         plan = self.plan
         span = self.code.span(step.span)
         target = operand(plan, scope, *step.target, span)
         if isinstance(step.value, New):
-            made = self.make(step.value, scope, None if o is None else self.names[o])
-            if isinstance(made, Diagnostic):
-                return made
+            assert made is not None
             if o is not None:
                 plan.engine.set_parent(made, o)
             source = plan.object_constant[made]

@@ -78,7 +78,7 @@ class Script:
                 return self._prepare_object(instruction)
             case Assign():
                 fill = self.objects.prepare_fill(instruction)
-                return lambda: self.objects.fill(fill, self.scope, None)
+                return lambda: self.objects.fill(fill, self.scope)
             case NewToken():
                 return self._prepare_token(instruction)
             case Call():

@@ -1,0 +1,10 @@
+from runtime.user.reactor import Now, Reactor
+
+
+class User(Reactor):
+    def tick(self, now: Now) -> None:
+        if now.tick == 0:
+            now.publish("src", "A")
+            now.wake(5)
+        else:
+            now.publish("src", "B", depth=3)
