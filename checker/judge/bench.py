@@ -34,6 +34,11 @@ class Tok:
         return f"{self.record.predicate}#{self.key}"
 
     @property
+    def is_outdated(self) -> bool:
+        """Whether its values are of an earlier plan than those of what was still there when the mission ended."""
+        return self.is_cut or self.standing.is_cut
+
+    @property
     def is_planned(self) -> bool:
         """Whether the token is in the plan, by itself or as part of another."""
         return self.record.state in ("active", "merged")

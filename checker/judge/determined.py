@@ -49,8 +49,7 @@ class Determined:
             return False  # what lies beyond the bounds of numbers is never fixed
         k = unfixed[0]
         if self.owners[k] == _CHILD:
-            tok = frame.tokens[self.tokens[k]]
-            return tok is not None and not tok.is_cut
+            return frame.tokens[self.tokens[k]] is not None
         return self.owners[k] == _OWN and _CHILD not in self.owners
 
 

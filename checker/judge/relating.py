@@ -14,6 +14,7 @@ from runtime.executive.record import NOBODY, Value
 
 Step = Callable[[BodyFrame], None]
 LEFT_OPEN = ("left open", "the others determine it")
+CUT_OFF = "a token that was cut off by a repair"
 
 
 def child_step(child: Child, names: VariableNames) -> Step:
@@ -63,8 +64,8 @@ def child_step(child: Child, names: VariableNames) -> Step:
         first = frame.tokens[origin]
         if first is None:
             return
-        if tok.is_cut or first.is_cut:
-            bench.skip("a token that was cut off by a repair")
+        if tok.is_outdated or first.is_outdated:
+            bench.skip(CUT_OFF)
             return
         if not tok.is_planned and member_of(bench, names, tok.values[OBJECT], "mode") == "Ignore":
             bench.skip("a child on a timeline that the model ignores")
@@ -138,8 +139,8 @@ def relate_step(given: Relate) -> Step:
         origin, target = frame.tokens[given.origin], frame.tokens[given.target]
         if origin is None or target is None:
             frame.bench.skip("a child is not on record")
-        elif origin.is_cut or target.is_cut:
-            frame.bench.skip("a token that was cut off by a repair")
+        elif origin.is_outdated or target.is_outdated:
+            frame.bench.skip(CUT_OFF)
         else:
             _relate(frame, given.relation, pairs, origin, target, given.span)
 

@@ -9,7 +9,7 @@ from checker.judge.determined import Determined
 from checker.judge.functions import COMPUTED
 from checker.judge.meanings import Meaning, equal, is_true
 from checker.judge.operands import BodyFrame, Read, VariableNames, domain_value, is_range, reader
-from checker.judge.relating import LEFT_OPEN, Step, child_step, relate_step
+from checker.judge.relating import CUT_OFF, LEFT_OPEN, Step, child_step, relate_step
 from checker.judge.solving import solver
 from checker.judge.values import UNKNOWN, is_open, lies_within, may_be_equal
 from compiler.program import (
@@ -23,6 +23,7 @@ from compiler.program import (
     ObjectLoop,
     Post,
     Sample,
+    TokenVariable,
     TypeCode,
 )
 from nddl_lang.text.source import Span
@@ -268,6 +269,11 @@ def _refuse(
     names: VariableNames,
     said: tuple[str, str] = ("it holds", "it does not"),
 ) -> None:
+    for operand in post.operands:
+        tok = frame.tokens[operand.token] if isinstance(operand, TokenVariable) else None
+        if tok is not None and tok is not frame.tok and tok.is_outdated:
+            frame.bench.skip(CUT_OFF)
+            return
     named = [(names.of(operand), value) for operand, value in zip(post.operands, values, strict=True)]
     frame.bench.judged += 1
     if post.name in COMPUTED:

@@ -1,13 +1,18 @@
 """The judge raises no false alarms: missions in which it once did."""
 
+from typing import Any
+
 import pytest
 
 from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
+from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.mission import record_mission
+from runtime.executive.record import ValueRange
 from tests.checker.judge.corruption import again
 from tests.checker.judge.missions import walking
 from tests.executive.determined_models import random_case
+from tests.executive.flying import Flown, flown, planner, simulator
 
 # 7: a guard at a real that is near its bound; 85 and 428: numbers beyond all bounds; 3372: a merged token that left the
 # plan before a repair gave up the bound of its end.
@@ -37,3 +42,59 @@ def test_of_tokens_that_repairs_put_in_each_others_place_the_last_counts(later: 
     altered = reactor._replace(tokens=tuple(sorted([*others, first, second])))
     report = again(mission._replace(record=mission.record._replace(reactors=(altered,))))
     assert {one.kind for one in report.disagreements} == found
+
+
+SHARED = """
+class Job extends AgentTimeline { predicate Wait { } predicate Work { } Job(Mode m) { super(m, "Wait"); } }
+class Mount extends AgentTimeline { predicate Rest { } predicate Track { } Mount(Mode m) { super(m, "Rest"); } }
+class Camera extends AgentTimeline { predicate Warm { } predicate Expose { } Camera(Mode m) { super(m, "Warm"); } }
+"""
+NIGHT = f"""{SHARED}
+Reservoir disk = new Reservoir(0.0, 0.0, 400.0);
+Job::Work {{
+    contains(Mount.Track track);
+    contains(Camera.Expose expose);
+    track.end == end;
+    expose.start >= start + 9;
+    duration <= 10;
+    any(Reservoir.produce data);
+    data.time == expose.end;
+}}
+Job job = new Job(Internal);
+Mount mount = new Mount(External);
+Camera camera = new Camera(External);
+close();
+"""
+SITE = f"""{SHARED}
+Mount::Track {{ duration == 20; }}
+Camera::Expose {{ duration <= 5; }}
+Mount mount = new Mount(Internal);
+Camera camera = new Camera(Internal);
+close();
+"""
+
+
+def of_two_plans(fate: str) -> Flown:
+    """A mission that no repair has saved: what its last plan leaves open an earlier one had fixed."""
+    work = GoalConfiguration("job", "Work", start=(2, 4))
+    mission = flown(
+        planner("night", NIGHT, "job", "mount camera"),
+        simulator("site", SITE, "mount camera"),
+        until=40,
+        goals=(work,),
+    )
+    assert mission.outcome.abort is not None and mission.outcome.abort.code == "F1"
+    reactor = mission.record.reactors[0]
+    loose = ValueRange(3.0, 12.0)
+    changes: dict[str, dict[str, Any]] = {
+        "Camera.Expose": {"fate": fate},
+        "Reservoir.produce": {"start": loose, "end": loose},
+    }
+    tokens = tuple(one._replace(**changes.get(one.predicate, {})) for one in reactor.tokens)
+    reactors = (reactor._replace(tokens=tokens), *mission.record.reactors[1:])
+    return mission._replace(record=mission.record._replace(reactors=reactors))
+
+
+@pytest.mark.parametrize(("fate", "alarms"), [("cut", 0), ("end", 1)])
+def test_values_of_an_earlier_plan_do_not_bind_the_last_one(fate: str, alarms: int) -> None:
+    assert len(again(of_two_plans(fate)).disagreements) == alarms
