@@ -39,6 +39,7 @@ _MOST_OUTSIDE = 8  # changes of the mission file
 _TOLD = 3  # small changes of models beside which a goal is not doubted
 _NAMESAKE = 0.2  # how much later a name is tried at each further line of a rule
 _CONFIRMED = 3  # causes that are tried on other missions too
+_KEPT = 0.3  # of the flights, at most, for that
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
 _UNTRIED = 0.3  # odds that a change helps in other missions, once it was tried in some
 _NEAR, _SEARCHED = 0.25, 0.5  # distance of what a conflict speaks of, and of what ruled out a choice of a search
@@ -261,7 +262,7 @@ def try_out(
 
 def _reserve(best: Mapping[EditSite, LineTrial], others: int, bounds: Bounds) -> int:
     """Flights that are kept for the other missions: for each cause that is known, and for one more."""
-    return min(min(len(best) + 1, _CONFIRMED) * others, bounds.flights // 4)
+    return min(min(len(best) + 1, _CONFIRMED) * others, int(_KEPT * bounds.flights))
 
 
 def _is_culprit(candidate: Candidate) -> bool:

@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[2]
 GPS = str(ROOT / "models/gps/mission.toml")
 pytestmark = [pytest.mark.once, pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")]
 PIPE = subprocess.PIPE
-KILLS = int(os.environ.get("NDDLC_KILLS", "3"))  # of each kind; `make kills` has more
+KILLS = int(os.environ.get("NDDLC_KILLS", "2"))  # of each kind; `make kills` has more
 LAG = 1.5  # seconds that a machine with much else to do may add
 
 

@@ -8,7 +8,14 @@ import pytest
 from nddlc.main import run
 
 ROOT = Path(__file__).parents[2] / "models"
-SOLVER = (ROOT / "templates" / "battery" / "planner.toml").read_text()
+FILTERS = """
+[[manager.filter]]
+variable = "start"
+[[manager.filter]]
+variable = "duration"
+"""
+UNBOUND = 'component = "UnboundVariableManager"\n'
+SOLVER = (ROOT / "templates" / "battery" / "planner.toml").read_text().replace(UNBOUND, UNBOUND + FILTERS)
 BATCH = """<Batch>
   <SampledParameter name="CURRENT" component="UniformRandom">
     <BatchSampler component="UniformRandDouble">

@@ -17,12 +17,13 @@ MISSIONS = 2
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("only", "count", "codes"), [("", COUNT, {"ended", "F1"}), ("models/auv", 2, {"ended"})])
-def test_mutants_fly_alike_in_both_forms(only: str, count: int, codes: set[str]) -> None:
+@pytest.mark.parametrize(("only", "count", "kinds"), [("", COUNT, 3), ("models/auv", 2, 1)])
+def test_mutants_fly_alike_in_both_forms(only: str, count: int, kinds: int) -> None:
     campaign = Campaign(seconds=20, whole=40, until=400, only=only, general=1)
     tally = campaign.tried(0, count, MISSIONS, both=True)
     assert tally.wrong == []
-    assert set(tally.codes) >= codes
+    assert "ended" in tally.codes
+    assert len(tally.codes) >= kinds  # some mutants fail, and not all of them in one way
     sums = {kind: sum(n for (_, each), n in tally.counts.items() if each == kind) for _, kind in tally.counts}
     assert sums["mutants"] >= 0.9 * count
     assert sums["in both forms"] >= 0.9 * sums["flights"]
