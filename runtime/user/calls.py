@@ -3,26 +3,14 @@
 from typing import Protocol
 
 from runtime.constraints.domains.store import Store
-from runtime.user.black_box import CallRecorder
+from runtime.user.black_box import CallRecorder, UserCode
 
 
-class Caller(Protocol):
+class Caller(UserCode, Protocol):
     """Who calls a modeler's code."""
 
     def told(self, s: Store | None, c: int) -> str:
         """What is called, by constraint `c` of an engine, in words."""
-
-    @property
-    def title(self) -> str:
-        """What is called, wherever it is."""
-
-    @property
-    def files(self) -> tuple[str, ...]:
-        """Where the code is written."""
-
-    @property
-    def line(self) -> int:
-        """Where it begins in the first of them."""
 
 
 Call = tuple[Caller, Store | None, int]  # who calls, and from which constraint of which engine
