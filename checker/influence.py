@@ -48,11 +48,11 @@ def lines_of_influence(program: Program, parameter: str) -> tuple[InfluenceLine,
         for instruction in body:
             if isinstance(instruction, Sample) and instruction.parameter == parameter:
                 spans = [instruction.span, *_slice(body, instruction)]
-                lines += [InfluenceLine(rule.predicate, predicate, _line_of(span)) for span in spans]
+                lines += [InfluenceLine(rule.predicate, predicate, line_of(span)) for span in spans]
     return tuple(dict.fromkeys(lines))
 
 
-def _line_of(span: Span) -> SourcePlace:
+def line_of(span: Span) -> SourcePlace:
     """The line of a span as the report shows it."""
     source = span.source
     return SourcePlace(source.name, span.line, span.column, source.line(span.line).partition("//")[0].strip())

@@ -8,6 +8,7 @@ from typing import assert_never
 
 from checker.conditions.condition import Condition
 from checker.conditions.rendering import literal_text
+from checker.influence import InfluenceLine
 from checker.losses import Exceeded, Limit
 from checker.oracle import CODE_NAMES, Judgement
 from checker.proofs.called import Called
@@ -121,6 +122,8 @@ def step_text(step: Step, story: Story) -> str:
             return f"{draw.parameter} is {number(draw.value)}{clipped}{manner}"
         case str(rule):
             return f"it acts through the rule of {rule}"
+        case InfluenceLine(rule=rule):
+            return f"the rule of {rule} asks for it"
         case Event() as event:
             return event_line(event)
         case ConflictElement() as element:
@@ -200,7 +203,8 @@ def event_line(event: Event) -> str:
 def element_line(element: ConflictElement) -> str:
     """What an element says, whose it is, and, where no line of the model says it, what does."""
     text = element_text(element)
-    if element.token is not None and not element.names(element.token):
+    is_told = element.kind is ElementKind.REQUEST or element.token is None  # whose it is, or that it does not matter
+    if not is_told and element.token is not None and not element.names(element.token):
         text = f"{element.token}: {text}"
     return text + _ORIGINS.get(element.kind, "")
 

@@ -16,11 +16,12 @@ from checker.causes import (
 )
 from checker.culprit import culprit_of, in_telling_order
 from checker.findings import Fault
-from checker.influence import Influence
+from checker.influence import Influence, InfluenceLine
 from checker.losses import Limit
 from checker.oracle import Judgement
 from checker.proofs.conflict import Confirmation, confirm, needed_elements
 from checker.proofs.places import ModelText
+from checker.requested import lines_that_ask
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import (
@@ -47,6 +48,7 @@ class StepKind(StrEnum):
     DRAW = "draw"
     LINE = "line"  # of the model, on the way of the draw
     EVENT = "event"
+    ASKED = "asked"  # a line of the model, by which an argument came to be asked for
     CAUSE = "cause"  # an element of the conflict
     FAULT = "fault"  # the culprit
     TRIED = "tried"  # what the search tried in vain
@@ -57,13 +59,23 @@ class StepKind(StrEnum):
 class Step:
     """One link of the chain: when (None: always), what, and where that is written.
 
-    `subject` is a draw with how it is drawn, the rule of a line, an event, an element of the conflict, what was tried,
-    or the abort (None: the mission went to its end). `limits` are the lines that set what the faulty one compares with.
+    `subject` is a draw with how it is drawn, the rule of a line, an event, an element of the conflict, a line that asks
+    for one, what was tried, or the abort (None: the mission went to its end). `limits` are the lines that set what the
+    faulty one compares with.
     """
 
     kind: StepKind
     tick: int | None
-    subject: "tuple[Draw, ParameterConfiguration | None] | str | Event | ConflictElement | Deadlock | Abort | None"
+    subject: (
+        tuple[Draw, ParameterConfiguration | None]
+        | str
+        | InfluenceLine
+        | Event
+        | ConflictElement
+        | Deadlock
+        | Abort
+        | None
+    )
     place: SourcePlace | None = None
     limits: tuple[SourcePlace, ...] = ()
 
@@ -117,7 +129,7 @@ def tell(
     steps = [
         *draws,
         *(Step(StepKind.EVENT, event.tick, event) for event in way),
-        *_conflict(conflict, confirmation),
+        *_with_askers(_conflict(conflict, confirmation), outcome, text),
         *_tried(outcome),
         Step(StepKind.ABORT, outcome.last_tick, abort),
     ]
@@ -233,6 +245,17 @@ def _conflict(conflict: Conflict | None, confirmation: Confirmation | None) -> l
     if culprit.element is not None:
         steps.append(Step(StepKind.FAULT, None, culprit.element, culprit.place, culprit.limits))
     return steps
+
+
+def _with_askers(steps: list[Step], outcome: Outcome, text: ModelText | None) -> Iterator[Step]:
+    """The steps, with the lines by which an argument came to be asked for before the step that says so."""
+    held = {predicate for *_, predicate in heads_of(outcome.events)}
+    held |= {event.predicate for event in single_events(outcome.events) if event.kind is EventKind.REQUEST}
+    for step in steps:
+        if isinstance(step.subject, ConflictElement) and text is not None:
+            for line in lines_that_ask(step.subject, text.programs, text.root, held):
+                yield Step(StepKind.ASKED, None, line, line.place)
+        yield step
 
 
 def _is_only_resource(element: ConflictElement, conflict: Conflict) -> bool:

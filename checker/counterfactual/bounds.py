@@ -8,6 +8,7 @@ from collections import Counter, defaultdict
 from collections.abc import Container, Sequence
 
 from checker.counterfactual.demands import Demands
+from checker.counterfactual.word_odds import compared
 from checker.mutation.edits import EditSite, SmallEdit
 from nddl_lang.semantics.constraints import CONSTRAINTS
 
@@ -93,7 +94,7 @@ def _is_in_order(text: str) -> bool:
 
 def _direction(text: str, at: int) -> int:
     """The same of what stands at an offset of a line."""
-    sides = _COMPARED.fullmatch(text)
+    sides = _COMPARED.fullmatch(compared(text))
     if sides is None:
         return 0
     is_right = at >= sides.start(3)

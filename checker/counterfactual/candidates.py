@@ -24,6 +24,7 @@ from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import Abort, Conflict, Deadlock, ElementKind, Event, EventKind, Outcome, SourcePlace
 
 _CULPRIT, _CONFLICT, _LOG, _OBSERVED, _COVERED, _EVENT, _AWAITED, _NAMED = 0.0, 0.25, 0.5, 0.5, 0.75, 1.0, 1.0, 1.5
+_STEP = 0.3  # of a line behind another one, by a local variable of a rule whose token was observed
 _PASSED = 0.4  # length of the way through a line that only passes a value on
 _LEVEL = 0.5  # of what changes the level of a resource that rules something out
 _OUTSIDE = 3.0  # added where other lines contradict each other, whatever happens
@@ -89,9 +90,10 @@ def candidates_of(
         note(place, far, source)
     observed = _observed(failed.conflict) | _observed(first.conflict if first is not None else None)
     for token, variable in sorted(observed):
-        for number in graph.setting(token, variable):
-            if number not in roots or roots[number][0] > _OBSERVED:
-                roots[number] = (_OBSERVED, Suspicion.CONFLICT)
+        for number, steps in graph.behind(token, variable):
+            far = _OBSERVED + _STEP * steps
+            if number not in roots or roots[number][0] > far:
+                roots[number] = (far, Suspicion.CONFLICT)
     asked = _asked(failed.conflict) | _asked(first.conflict if first is not None else None)
     answers = [*refusals(outcome), *((first,) if first is not None and first.kind in _ANSWERS else ())]
     asked |= {(event.predicate, _TIME) for event in answers}
@@ -127,8 +129,13 @@ def candidates_of(
         near = [number for number, (far, _) in roots.items() if far <= _LOG]
         seen |= {name.rpartition(".")[2] for name in graph.tokens_at(near)}
     inside = {number for place in at_odds for number in graph.at(str(real_path(root / place.file)), place.line)}
-    spoken = [one.place for one in (failed.conflict.elements if failed.conflict is not None else ()) if one.place]
-    told = {number for place in spoken for number in graph.at(str(real_path(root / place.file)), place.line)}
+    behind = (
+        first if first is not None and outcome.abort is not None and first.reactor != outcome.abort.reactor else None
+    )
+    told = [_told(failed.conflict, graph, root)]
+    if behind is not None:  # who ended may know only that another one took as long as it was asked to
+        slices = [graph.behind(token, variable) for token, variable in _observed(behind.conflict)]
+        told.append(_told(behind.conflict, graph, root) | {number for lines in slices for number, _ in lines})
     found = []
     for number, site in enumerate(graph.sites):
         if number not in distances:
@@ -137,10 +144,16 @@ def candidates_of(
         is_unseen = bool(site.rule) and site.rule.rpartition(".")[2] not in seen
         is_outside = bool(inside) and number not in inside
         added = _UNSEEN * is_unseen + _OUTSIDE * is_outside
-        sooner = min(_TELLING / len(told), _MOST_TOLD) if number in told else 0.0
+        sooner = max((min(_TELLING / len(lines), _MOST_TOLD) for lines in told if number in lines), default=0.0)
         nearer = distances[number] - reached[number]
         found.append(Candidate(site, distances[number] + added, source, nearer, sooner))
     return sorted(found, key=lambda one: one.far)
+
+
+def _told(conflict: Conflict | None, graph: Dependence, root: Path) -> set[int]:
+    """The sites of the lines that a conflict names."""
+    places = [one.place for one in (conflict.elements if conflict is not None else ()) if one.place is not None]
+    return {number for place in places for number in graph.at(str(real_path(root / place.file)), place.line)}
 
 
 def _observed(conflict: Conflict | None) -> set[tuple[str, str]]:

@@ -3,9 +3,11 @@
 from checker.batch.result import MissionResult
 from checker.coverage import left_out
 from checker.losses import GoalFate
-from runtime.executive.events import single_events
+from runtime.executive.events import heads_of, single_events
 
 HEAVY = 10.0  # damage of a mission that passes without a goal
+_COLLAPSED = 1.5  # of each of two predicates that hardly hold
+_LONG = 10  # ticks that are no moment
 _STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
 
 
@@ -21,6 +23,28 @@ def strayed_of(result: MissionResult, failed: MissionResult) -> float:
     if result.outcome is None or failed.outcome is None:
         return 0.0
     return min(_STRAYED * left_out(failed.outcome.behaviour, result.outcome.behaviour), _MOST_STRAYED)
+
+
+def collapsed_of(result: MissionResult, failed: MissionResult) -> float:
+    """What a mission that passes does in a moment, and the failed one did not, or not yet: any limit is kept so."""
+    before, after = _longest(failed), _longest(result)
+    return _COLLAPSED * min(sum(ticks <= 1 and before.get(name, _LONG) >= _LONG for name, ticks in after.items()), 2)
+
+
+def _longest(result: MissionResult) -> dict[str, int]:
+    """How long each predicate held at most, by its name."""
+    if result.outcome is None:
+        return {}
+    found: dict[str, int] = {}
+    begun: dict[str, tuple[str, int]] = {}
+    for _, tick, timeline, predicate in heads_of(result.outcome.events):
+        known = begun.get(timeline)
+        begun[timeline] = (predicate, tick)
+        if known is not None:
+            found[known[0]] = max(found.get(known[0], 0), tick - known[1])
+    for predicate, tick in begun.values():
+        found[predicate] = max(found.get(predicate, 0), result.outcome.last_tick - tick)
+    return found
 
 
 def course_of(result: MissionResult) -> tuple[object, ...]:

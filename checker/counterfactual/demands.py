@@ -10,6 +10,7 @@ import re
 from collections import defaultdict
 from collections.abc import Container, Iterator, Sequence
 
+from checker.counterfactual.word_odds import compared
 from checker.mutation.edits import EditSite
 
 _Name = tuple[str, str]  # a rule and a variable, or "" and a constant
@@ -54,7 +55,9 @@ class Demands:
         for rule in {site.rule for site in sites if site.rule} - holding - held:
             if 1 not in self._wanted[rule, _DURATION]:
                 self._wanted[rule, _DURATION].add(-1)
-        self._given = {self._name(site, found.group(1)) for site in sites if (found := _SET.fullmatch(site.text))}
+        self._given = {
+            self._name(site, found.group(1)) for site in sites if (found := _SET.fullmatch(compared(site.text)))
+        }
         self._follow([line for site in sites if (line := self._equation(site)) is not None])
 
     def of(self, name: str) -> int:
@@ -64,7 +67,7 @@ class Demands:
 
     def at(self, site: EditSite, offset: int) -> int:
         """The same of a number that stands in a line."""
-        found = _SET.fullmatch(site.text)
+        found = _SET.fullmatch(compared(site.text))
         ways = self._wanted.get(self._name(site, found.group(1)), set()) if found is not None and site.rule else set()
         if found is None or len(ways) != 1:
             return 0
@@ -106,7 +109,7 @@ class Demands:
         return None
 
     def _limits(self, site: EditSite) -> Iterator[tuple[_Name, int]]:
-        found = _LIMIT.fullmatch(site.text)
+        found = _LIMIT.fullmatch(compared(site.text))
         if found is None or not site.rule:
             return
         is_most = found.group(2)[0] == "<"

@@ -12,47 +12,13 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from checker.counterfactual.instructions import flat, is_shared, pairs_in
+from checker.counterfactual.instructions import is_shared, pairs_in
+from checker.counterfactual.links import DURATION_NAME, RESOURCES, TIMES, Key, Links
 from checker.mutation.edits import EditSite
-from compiler.program import (
-    DURATION,
-    END,
-    FIRST_PARAMETER,
-    START,
-    Assign,
-    Call,
-    Child,
-    ClassCode,
-    Field,
-    GlobalVariable,
-    Guard,
-    Instruction,
-    LocalVariable,
-    NewGlobal,
-    NewObject,
-    NewToken,
-    NewVariable,
-    ObjectLoop,
-    Operand,
-    Post,
-    PredicateCode,
-    Program,
-    Relate,
-    RuleCode,
-    Sample,
-    TokenVariable,
-    UnionOf,
-)
+from compiler.program import Program
 from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Span
 
-Key = tuple[object, ...]  # of a variable
-_TIMES = "times"
-_DURATION = "duration"
-# Relations that leave the end of the origin free, where nothing says when the target begins.
-_FREE = ("any", "contains", "starts", "met_by", "after", "meets", "before")
-_RESOURCES = ("Reservoir", "Reusable", "CBReusable", "Unary")
-_EVENTS = "Reservoir"  # whose tokens have one time
 _MOST_BESIDE = 12  # lines that speak of a variable which still says that they hang together
 _PASSING = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==\s*([A-Za-z_][\w.]*)\s*;")
 _CROWD = 0.05  # what each further line that bears on a variable adds to the way through it
@@ -89,7 +55,7 @@ class Dependence:
         self._named = {site.named for site in sites if site.named}
         self.programs = programs
         for number, program in enumerate(programs):
-            for span, keys in _Links(number, program).all():
+            for span, keys in Links(number, program).all():
                 for one in self._at.get(self._line(span), ()):
                     self._keys[one].update(keys)
                     for key in keys:
@@ -119,7 +85,7 @@ class Dependence:
     def of_resource(self, predicate: str) -> Iterator[int]:
         """The sites that bear on an event of a resource, and where that is made; none for other predicates."""
         native = any(
-            one.name == predicate.rpartition(".")[0] and one.native in _RESOURCES
+            one.name == predicate.rpartition(".")[0] and one.native in RESOURCES
             for program in self.programs
             for one in program.classes
         )
@@ -129,19 +95,32 @@ class Dependence:
 
     def setting(self, predicate: str, variable: str) -> Iterator[int]:
         """The sites in the rule of a predicate that bear on a parameter of its token, or on how long that lasts."""
-        key = ("token", predicate, _TIMES if variable in (_DURATION, "end") else variable)
+        key = ("token", predicate, TIMES if variable in (DURATION_NAME, "end") else variable)
         yield from sorted(one for one in self._users.get(key, ()) if self.sites[one].rule == predicate)
 
-    def asking(self, predicate: str, variable: str = _TIMES) -> Iterator[int]:
+    def behind(self, predicate: str, variable: str) -> Iterator[tuple[int, int]]:
+        """The sites of `setting`, and those behind them by local variables of the rule, each with how many steps."""
+        found = dict.fromkeys(self.setting(predicate, variable), 0)
+        waiting = list(found)
+        while waiting:
+            site = waiting.pop(0)
+            shared = {key for key in self._keys[site] if key[0] == "rule" and "local" in key}
+            for other in sorted({one for key in shared for one in self._users[key]} - found.keys()):
+                if self.sites[other].rule == predicate:
+                    found[other] = found[site] + 1
+                    waiting.append(other)
+        yield from found.items()
+
+    def asking(self, predicate: str, variable: str = TIMES) -> Iterator[int]:
         """The sites by which other rules bound a parameter, or the times, of the tokens of a predicate."""
-        name = _TIMES if variable in (_DURATION, "start", "end") else variable
+        name = TIMES if variable in (DURATION_NAME, "start", "end") else variable
         for key in [key for key in self._users if key[0] == "token" and key[2] == name]:
             if predicate in (key[1], str(key[1]).rpartition(".")[2]):
                 yield from sorted(one for one in self._users[key] if self.sites[one].rule not in ("", key[1]))
 
     def tokens_at(self, sites: Iterable[int]) -> set[str]:
         """The predicates of the tokens whose times lines speak of."""
-        return {str(key[1]) for one in sites for key in self._keys[one] if key[0] == "token" and key[2] == _TIMES}
+        return {str(key[1]) for one in sites for key in self._keys[one] if key[0] == "token" and key[2] == TIMES}
 
     def expected_with(self, sites: Iterable[int], held: Container[str]) -> set[str]:
         """The predicates that never held, of those that lines speak of, and of what is to be related to these in time.
@@ -209,7 +188,7 @@ class Dependence:
             rule.predicate
             for number, program in enumerate(self.programs)
             for index, rule in enumerate(program.rules)
-            if all(one != _DURATION for _, one, _, _ in _Links(number, program).loose(rule, ("rule", number, index)))
+            if all(one != DURATION_NAME for _, one, _, _ in Links(number, program).loose(rule, ("rule", number, index)))
         }
         for number, program in enumerate(self.programs):
             for index, rule in enumerate(program.rules):
@@ -217,9 +196,9 @@ class Dependence:
                 heads = [one for one in self.at(file, line) if self.sites[one].is_rule]
                 if not heads:
                     continue
-                links = _Links(number, program)
+                links = Links(number, program)
                 for span, variable, key, is_local in links.loose(rule, ("rule", number, index)):
-                    if variable == _DURATION and rule.predicate in timed:
+                    if variable == DURATION_NAME and rule.predicate in timed:
                         continue
                     declared = [one for one in self.at(*self._line(span)) if not self.sites[one].is_rule]
                     site = declared[0] if span is not rule.span and declared else heads[0]
@@ -231,167 +210,3 @@ class Dependence:
         if name not in self._paths:
             self._paths[name] = str(real_path(Path(name)))
         return self._paths[name], span.line
-
-
-class _Links:
-    """The lines of one program, each with the variables that it speaks of."""
-
-    def __init__(self, number: int, program: Program) -> None:
-        self._number = number
-        self._program = program
-        self._parameters = {each.name: [one.name for one in each.parameters] for each in program.predicates}
-        self._classes = {each.name: each for each in program.classes}
-
-    def all(self) -> Iterator[tuple[Span, list[Key]]]:
-        """Every instruction with a line."""
-        for index, rule in enumerate(self._program.rules):
-            tokens = {0: rule.predicate}
-            yield rule.span, [("token", rule.predicate, _TIMES)]
-            yield from self._body(rule.body, ("rule", self._number, index), tokens, ())
-        for index, predicate in enumerate(self._program.predicates):
-            yield from self._body(predicate.body, ("predicate", self._number, index), {0: predicate.name}, ())
-        yield from self._body(self._program.script, ("script", self._number), {}, ())
-
-    def loose(self, rule: RuleCode, scope: Key) -> Iterator[tuple[Span, str, Key, bool]]:
-        """What a rule leaves loose: where that is declared, its name, the key under which other rules speak of it.
-
-        The last says whether it is a local variable.
-        """
-        lines: dict[Key, set[int]] = defaultdict(set)
-        declared: dict[Key, tuple[Span, str]] = {}
-        steps = list(flat(rule.body))
-        children = {0: rule.predicate} | {step.slot: step.predicate for step in steps if isinstance(step, Child)}
-        marked = {slot: f"{predicate}#{slot}" for slot, predicate in children.items()}
-        events = {slot for slot, predicate in children.items() if self._is_event(predicate)}
-        self._parameters |= {marked[slot]: self._parameters.get(name, []) for slot, name in children.items()}
-        for step in steps:
-            if isinstance(step, NewVariable) and step.name is not None:
-                declared[*scope, "local", step.slot] = (step.span, step.name)
-            elif isinstance(step, Child):
-                for name in self._parameters[marked[step.slot]]:
-                    declared["token", marked[step.slot], name] = (step.span, f"{step.label or step.predicate}.{name}")
-            speaks = step.copy_of is not None if isinstance(step, NewVariable) else not isinstance(step, Child)
-            if speaks:
-                times = ("token", marked[0], _TIMES)
-                is_event = any(("token", marked[one], _TIMES) in self._keys(step, scope, marked) for one in events)
-                for key in self._keys(step, scope, marked):
-                    if not (is_event and key == times):  # when an event comes leaves the end free
-                        lines[key].add(step.span.line)
-        for name in self._parameters[marked[0]]:
-            declared["token", marked[0], name] = (rule.span, name)
-        for key, (span, name) in declared.items():
-            is_local = key[0] != "token"
-            if len(lines[key]) < (2 if is_local else 1):
-                yield span, name, () if is_local else ("token", str(key[1]).partition("#")[0], name), is_local
-        if not lines["token", marked[0], _TIMES] and all(
-            step.relation in _FREE for step in steps if isinstance(step, Child) and step.origin == 0
-        ):
-            yield rule.span, _DURATION, (), False
-
-    def _body(
-        self, body: tuple[Instruction, ...], scope: Key, tokens: dict[int, str], inside: tuple[Key, ...]
-    ) -> Iterator[tuple[Span, list[Key]]]:
-        for step in body:
-            match step:
-                case Child(slot=slot, predicate=predicate):
-                    tokens[slot] = predicate
-                case NewToken(slot=slot, predicate=predicate):
-                    tokens[slot] = predicate
-                case _:
-                    pass
-        for step in body:
-            yield step.span, [*self._keys(step, scope, tokens), *inside]
-            match step:
-                case Guard(then=then, otherwise=otherwise, span=span):
-                    key: Key = (*scope, "guard", span.begin)
-                    yield span, [key]
-                    yield from self._body(then, scope, dict(tokens), (*inside, key))
-                    yield from self._body(otherwise, scope, dict(tokens), (*inside, key))
-                case ObjectLoop(body=inner):
-                    yield from self._body(inner, scope, dict(tokens), inside)
-                case _:
-                    pass
-
-    def _keys(self, step: Instruction, scope: Key, tokens: dict[int, str]) -> Iterator[Key]:
-        match step:
-            case Post(operands=operands):
-                for operand in operands:
-                    yield from self._operand(operand, scope, tokens)
-            case Sample(target=target):
-                yield from self._operand(target, scope, tokens)
-            case NewVariable(slot=slot, copy_of=copy_of):
-                yield (*scope, "local", slot)
-                if copy_of is not None:
-                    yield from self._operand(copy_of, scope, tokens)
-            case Child(slot=slot, origin=origin) | Relate(target=slot, origin=origin):
-                yield from (("token", tokens[one], _TIMES) for one in (slot, origin) if one in tokens)
-                yield (*scope, "child", slot)
-            case NewToken(predicate=predicate):
-                yield ("token", predicate, _TIMES)
-            case Guard(condition=condition, decided_by=deciders):
-                for operand in (condition, *deciders):
-                    yield from self._operand(operand, scope, tokens)
-            case NewGlobal(index=index, copy_of=copy_of):
-                yield from self._operand(GlobalVariable(index), scope, tokens)
-                if copy_of is not None:
-                    yield from self._operand(copy_of, scope, tokens)
-            case Assign(target=target, value=value):
-                yield from self._operand(target, scope, tokens)
-                if isinstance(value, NewObject):
-                    yield from self._object(value, scope, tokens)
-                elif value is not None:
-                    yield from self._operand(value, scope, tokens)
-            case NewObject():
-                yield from self._object(step, scope, tokens)
-            case Call(arguments=arguments, variable=variable):
-                for operand in (*arguments, *((variable,) if variable is not None else ())):
-                    yield from self._operand(operand, scope, tokens)
-            case _:
-                pass
-
-    def _object(self, new: NewObject, scope: Key, tokens: dict[int, str]) -> Iterator[Key]:
-        """What an object is made of bears on its members, and the limits of a resource on what uses it."""
-        for argument in new.arguments:
-            if not isinstance(argument, NewObject):
-                yield from self._operand(argument, scope, tokens)
-        owner: ClassCode | None = self._classes[new.class_name]
-        yield from (("member", member.name) for member in (owner.members if owner is not None else ()))
-        while owner is not None:
-            if owner.native in _RESOURCES:
-                for each in self._predicates_of(owner.name):
-                    yield ("token", each.name, _TIMES)
-                    yield from (("token", each.name, parameter.name) for parameter in each.parameters)
-            owner = self._classes[owner.base] if owner.base is not None else None
-
-    def _is_event(self, predicate: str) -> bool:
-        """Whether a predicate is of a resource's events, which have one time."""
-        owner = self._classes.get(predicate.rpartition(".")[0])
-        return owner is not None and owner.native == _EVENTS
-
-    def _predicates_of(self, owner: str) -> Iterator[PredicateCode]:
-        return (each for each in self._program.predicates if each.class_name == owner)
-
-    def _operand(self, operand: Operand, scope: Key, tokens: dict[int, str]) -> Iterator[Key]:
-        match operand:
-            case GlobalVariable(index=index):
-                yield ("global", self._number, self._program.globals[index][0])
-            case LocalVariable(slot=slot):
-                yield (*scope, "local", slot)
-            case TokenVariable(token=token, variable=variable) if token in tokens:
-                predicate = tokens[token]
-                names = self._parameters.get(predicate, [])
-                if variable in (DURATION, START, END):
-                    yield ("token", predicate, _TIMES)
-                elif FIRST_PARAMETER <= variable < FIRST_PARAMETER + len(names):
-                    yield ("token", predicate, names[variable - FIRST_PARAMETER])
-                if token:
-                    yield (*scope, "child", token)
-            case Field(base=base, members=members):
-                yield from (("member", member) for member in members[-1:])
-                if base is not None:
-                    yield from self._operand(base, scope, tokens)
-            case UnionOf(operands=operands):
-                for one in operands:
-                    yield from self._operand(one, scope, tokens)
-            case _:
-                pass

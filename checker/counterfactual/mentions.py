@@ -8,6 +8,7 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Container, Sequence
 
+from checker.counterfactual.word_odds import compared
 from checker.mutation.edits import EditKind, EditSite, SmallEdit
 
 _PATH = re.compile(r"[A-Za-z_]\w*(?:\.\w+)*")
@@ -35,7 +36,7 @@ class Mentions:
         for site in sites:
             if not site.rule or site.is_rule:
                 continue
-            scope, text, skipped = _scope(site), site.text, 0
+            scope, text, skipped = _scope(site), compared(site.text), 0
             declared = _DECLARED.fullmatch(text)
             if declared is not None:
                 self._locals[scope].add(declared.group(1))
@@ -70,14 +71,15 @@ class Mentions:
 
     def frees(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether nothing says any more what a local variable is: `rest <= ceil(storing)` for `==`."""
-        found = _SET.match(site.text)
+        found = _SET.match(compared(site.text))
         if edit.old != "==" or found is None or found.group(1) not in self._locals[_scope(site)]:
             return False
         return self._set[_scope(site)][found.group(1)] <= 1
 
     def is_set_by(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether an edit changes what a line sets: the left side of `==`."""
-        return bool(_SET.match(site.text)) and not site.text[: edit.begin - site.begin].strip()
+        text = compared(site.text)
+        return bool(_SET.match(text)) and not text[: edit.begin - site.begin].strip()
 
     def likeness(self, edit: SmallEdit, site: EditSite) -> float:
         """1 where both sides of `==` have one name then, as in `child.depth == depth`, less 1 where they have it.
@@ -119,7 +121,7 @@ def _scope(site: EditSite) -> object:
 
 
 def _is_alike(text: str) -> bool:
-    sides = _SAME.fullmatch(text)
+    sides = _SAME.fullmatch(compared(text))
     return sides is not None and sides.group(1).rpartition(".")[2] == sides.group(2).rpartition(".")[2]
 
 

@@ -13,14 +13,17 @@ from dataclasses import dataclass
 from checker.counterfactual.affinity import WORD, Affinity, is_kin
 from checker.counterfactual.bounds import Directions, is_result_moved, sets_value
 from checker.counterfactual.mentions import Mentions, is_doubled
+from checker.counterfactual.numbers import NUMERIC, digits, is_farthest, is_raised, is_step, octaves
 from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, sign_of, sort_of, sum_of
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit, inverse_of
 
+_TWICE = re.compile(r"([A-Za-z_][\w.]*)\s*[+*]\s*\1")  # one name, added to itself or multiplied
 _LABEL = re.compile(r"\s+(\w+)\s*\)")
 _LOOSE = "any"  # the relation that demands nothing
+_TERM, _TERM_SOON = 3.0, 0.9  # of a sum or product without a part, and when that is tried
+_REPEATED, _REPEATED_SOON = 0.5, -0.2  # the same where both parts are one name
 _UNEQUAL, _EQUAL = "!=", "=="
 _WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
-_NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 _MOST_FOLLOW_UPS = 3
 _FEW = 3  # numbers so small that one more is much
 _LATER = 0.7  # what is no number, where most missions pass
@@ -134,6 +137,10 @@ class Usage:
         gain += _KINDRED * self.affinity.kindred(edit, site)
         return gain + _ALIKE * self.mentions.likeness(edit, site) + _DOUBLED * is_doubled(edit, site)
 
+    def is_fitting(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether a line itself asks for a name: a constant that bears it, or the same name on the other side."""
+        return self.affinity.kindred(edit, site) > 0 or self.mentions.likeness(edit, site) > 0.0
+
     def odds(self, edit: SmallEdit, site: EditSite) -> float:
         """Logarithm of how much likelier the old word of a relation or comparison is meant than the new one."""
         sort, prior = sort_of(edit, site)
@@ -181,11 +188,6 @@ def is_loosening(edit: SmallEdit, site: EditSite) -> bool:
     )
 
 
-def is_doubling(edit: SmallEdit) -> bool:
-    """Whether a number becomes twice or half as large."""
-    return edit.kind is EditKind.CONSTANT and float(edit.new) in (2.0 * float(edit.old), 0.5 * float(edit.old))
-
-
 def is_order_turned(edit: SmallEdit, site: EditSite) -> bool:
     """Whether a relation of two named tokens says the same with the tokens swapped."""
     is_between = edit.kind is EditKind.RELATION and edit.begin > site.begin
@@ -200,7 +202,7 @@ def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
 
 def _structural(edit: SmallEdit, usage: Usage) -> float:
     """What a relation, a sign or a comparison costs where missions pass that it is a part of, too."""
-    is_shared = edit.kind not in (*_NUMERIC, EditKind.LIMIT, EditKind.VALUE)  # a value matters for some arguments only
+    is_shared = edit.kind not in (*NUMERIC, EditKind.LIMIT, EditKind.VALUE)  # a value matters for some arguments only
     return _EDGE * usage.passing if is_shared else 0.0
 
 
@@ -214,9 +216,9 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             belongs += _AGREES * ((edit.begin, edit.new) in site.agreeing)
             return 1.5 - _IDLE * usage.is_swapped(edit) - belongs
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
-            far = 0.0 if site.named and float(edit.old) == 0.0 else _octaves(edit)  # who names a number has one
+            far = 0.0 if site.named and float(edit.old) == 0.0 else octaves(edit)  # who names a number has one
             nothing = _NOTHING * (bool(site.named) and float(edit.old) == 0.0)
-            return 1.0 - nothing + _OCTAVE * far + _DIGIT * (_digits(edit.new) - _digits(edit.old))
+            return 1.0 - nothing + _OCTAVE * far + _DIGIT * (digits(edit.new) - digits(edit.old))
         case EditKind.ARGUMENTS if usage.directions.is_put_in_order(edit, site):
             return 0.0
         case EditKind.PROMISE:
@@ -235,6 +237,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return 1.0 + _QUOTIENT
         case EditKind.OPERATOR | EditKind.MISSION:
             return 3.0
+        case EditKind.TERM:
+            return _REPEATED if _TWICE.fullmatch(edit.old) else _TERM
         case EditKind.VALUE:
             is_case = edit.old not in TRUTHS and not site.text.endswith(";")
             cases = _CASE * usage.mentions.case_gain(edit, site) if is_case else 0.0
@@ -278,6 +282,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return _SWAPPED + _LATER * usage.passing + 0.5 * ("/" in edit.old)
         case EditKind.OPERATOR:
             return 0.5 + _LATER * usage.passing
+        case EditKind.TERM:
+            return _REPEATED_SOON if _TWICE.fullmatch(edit.old) else _TERM_SOON + _LATER * usage.passing
         case EditKind.NAME:
             fitness = usage.fitness(edit, site)
             is_set = usage.mentions.is_set_by(edit, site)
@@ -309,25 +315,13 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
                 return _LATE
             way = usage.directions.of(edit, site)
             between = _BETWEEN if way == 0 else 1.2  # too much may be as bad as too little
-            if not _is_farthest(edit, site):
-                return between if _octaves(edit) >= 1.0 else None
+            if not is_farthest(edit, site):
+                return between if octaves(edit) >= 1.0 else None
             # A zero in a rule seldom stands for a number, nor does the 1 of a count: `next.k == k + 1`.
-            is_telling = site.named or (float(edit.old) != 0.0 and not _is_step(edit, site))
-            return 1.2 if way == (-1 if _direction(edit) else 1) else -0.3 if is_telling else _BETWEEN
+            is_telling = site.named or (float(edit.old) != 0.0 and not is_step(edit, site))
+            return 1.2 if way == (-1 if is_raised(edit) else 1) else -0.3 if is_telling else _BETWEEN
         case EditKind.OFF_BY_ONE:
             return 0.4 if abs(float(edit.old)) <= _FEW else None
-
-
-def _is_step(edit: SmallEdit, site: EditSite) -> bool:
-    """Whether a number is a 1 that is added or taken away."""
-    return edit.old == "1" and site.text[: edit.begin - site.begin].rstrip().endswith(("+", "-"))
-
-
-def _is_farthest(edit: SmallEdit, site: EditSite) -> bool:
-    """Whether no edit changes the number more in this direction without a change of its sign."""
-    rivals = (one for one in site.edits if one.begin == edit.begin and one.kind is EditKind.CONSTANT)
-    same = [one for one in rivals if _direction(one) == _direction(edit) and float(one.new) * float(one.old) >= 0.0]
-    return _octaves(edit) >= max((_octaves(one) for one in same if float(one.new) != 0.0), default=0.0)
 
 
 def follow_ups(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]:
@@ -336,7 +330,7 @@ def follow_ups(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]
     smaller = [
         (cost_of(other, site, usage), number, other)
         for number, other in enumerate(site.edits)
-        if _is_apart(other, edit) or _direction(other) == _direction(edit)
+        if _is_apart(other, edit) or is_raised(other) == is_raised(edit)
     ]
     wanted = sorted(one for one in smaller if one[0] < mine)
     kinds: dict[EditKind, SmallEdit] = {}
@@ -348,12 +342,7 @@ def follow_ups(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]
 
 def _is_apart(one: SmallEdit, other: SmallEdit) -> bool:
     """Whether two edits are not both about the number at one place."""
-    return one.kind not in _NUMERIC or other.kind not in _NUMERIC or one.begin != other.begin
-
-
-def _direction(edit: SmallEdit) -> bool:
-    """Whether a number becomes greater."""
-    return edit.kind in _NUMERIC and float(edit.new) > float(edit.old)
+    return one.kind not in NUMERIC or other.kind not in NUMERIC or one.begin != other.begin
 
 
 def alternatives(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]:
@@ -363,20 +352,9 @@ def alternatives(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdi
         (cost_of(other, site, usage), number, other)
         for number, other in enumerate(site.edits)
         if other != edit and other.kind not in DROPPED
-        if _is_apart(other, edit) or _direction(other) == _direction(edit)
+        if _is_apart(other, edit) or is_raised(other) == is_raised(edit)
     ]
     return [other for cost, _, other in sorted(others)[:_MOST_FOLLOW_UPS] if cost <= most]
-
-
-def _octaves(edit: SmallEdit) -> float:
-    """By how many doublings a constant changes; one that changes its sign, or becomes 0, by many."""
-    old, new = float(edit.old), float(edit.new)
-    return abs(math.log2(new / old)) if old * new > 0.0 else 4.0
-
-
-def _digits(number: str) -> int:
-    """Significant digits: people choose round numbers."""
-    return len(number.lstrip("-").replace(".", "").strip("0")) if "." in number else len(number.lstrip("-").rstrip("0"))
 
 
 def is_probe(edit: SmallEdit) -> bool:

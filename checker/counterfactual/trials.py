@@ -14,14 +14,14 @@ from checker.batch.interruption import InterruptedSearch
 from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.counterfactual.candidates import Candidate, Suspicion
-from checker.counterfactual.damage import HEAVY, course_of, damage_of, strayed_of
+from checker.counterfactual.damage import HEAVY, collapsed_of, course_of, damage_of, strayed_of
+from checker.counterfactual.numbers import between, is_doubling
 from checker.counterfactual.smallness import (
     Usage,
     alternatives,
     cost_of,
     delay_of,
     follow_ups,
-    is_doubling,
     is_loosening,
     is_order_turned,
     is_probe,
@@ -37,7 +37,7 @@ _REACH = 0.4  # the same of a constant, of which there are many
 _TURN, _PLACE = 0.3, 0.1  # how much later each further edit of one line is tried, at one place and at another
 _MOST_OUTSIDE = 8  # changes of the mission file
 _TOLD = 3  # small changes of models beside which a goal is not doubted
-_NAMESAKE = 0.2  # how much later a name is tried at each further line of a rule
+_NAMESAKE = 0.2  # how much later a name is tried at each further line of a rule: what lacks a mention lacks it at one
 _CONFIRMED = 3  # causes that are tried on other missions too
 _KEPT = 0.3  # of the flights, at most, for that
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
@@ -51,6 +51,7 @@ _SLOW = 8.0  # times the slowest flight before that passed or failed: a change m
 _LEAST_SECONDS = 3.0  # that a flight may take
 _MODELS = 0.75  # of the time for changes of models, where the mission file is to be tried too
 _SHARE = 0.25  # of the time that is left, for one flight
+_LESS = 0.3  # how much later a number is changed less where a large change makes the mission fail in another way
 _FOLLOWED = 0.35  # how much likelier a change of a line is once another change of that line has helped
 
 # A change, a mission and how many seconds it may take in; how the mission ends with that change out.
@@ -194,9 +195,7 @@ def try_out(
             else:
                 at += _TURN * earlier[edit.begin] + _PLACE * len(earlier) * (edit.kind is not EditKind.VALUE)
                 earlier[edit.begin] += 1
-            if (
-                edit.kind is EditKind.NAME and usage.affinity.kindred(edit, candidate.site) <= 0
-            ):  # what lacks a mention lacks it at one line
+            if edit.kind is EditKind.NAME and not usage.is_fitting(edit, candidate.site):
                 at += _NAMESAKE * named[candidate.site.file, candidate.site.scope, edit.new]
                 named[candidate.site.file, candidate.site.scope, edit.new] += 1
             turns.add(at, candidate, edit)
@@ -227,6 +226,9 @@ def try_out(
                 turns.avoid(edit)
             if trials.is_lost or (is_told and course_of(result) == course):
                 turns.doubt(site, None if is_probe(edit) else edit.begin)
+            if result.verdict is Verdict.FAIL and result.judgement.code != failed[0].judgement.code:
+                for other in between(edit, site):
+                    turns.add(at + _LESS, candidate, other)
             continue
         trial = trials.read(candidate, edit, cost, result)
         if trial.damage < HEAVY:
@@ -341,7 +343,7 @@ class _Trials:
 
     def read(self, candidate: Candidate, edit: SmallEdit, cost: float, result: MissionResult) -> LineTrial:
         """What a flight of the first failed mission tells that passes with an edit."""
-        damage = damage_of(result) + strayed_of(result, self.missions.failed[0])
+        damage = sum(of(result, self.missions.failed[0]) for of in (strayed_of, collapsed_of)) + damage_of(result)
         return LineTrial(candidate, edit, damage, cost, is_evasive=self.missions.is_evasive(result))
 
     def confirmed(self, trial: LineTrial, helping: Sequence[LineTrial], usage: Usage) -> LineTrial:

@@ -12,6 +12,8 @@ _POINTS = re.compile(r"(\w+\.)?(start|end)\s*[<>=!]+\s*(\w+\.)?(start|end)\s*;")
 _TARGET = re.compile(r"\(\s*[\w.]+")
 _BEFORE, _AFTER = re.compile(r"([\w.]+)\s*$"), re.compile(r"\s*([\w.]+)")
 _REAL = re.compile(r"\d\.\d|\d\.(?!\w)")
+_ROUNDED = re.compile(r"\b(ceil|floor|round)\s*\(")
+_NAMED = re.compile(r"(\s*)(eq|leq|lt)(\s*\()([^,()]+)(,\s*)([^,()]+)(\)\s*)(;)")
 _SIGNS = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
 _TIMES = ("start", "end", "duration")
 
@@ -25,6 +27,7 @@ _RELATIONS = {
 _COMPARISONS = {
     "value": {"==": 6.0, "<=": 1.0, ">=": 1.0, "!=": 0.1},
     "time": {"==": 3.0, "<=": 3.0, ">=": 1.5, "!=": 0.05},
+    "rounded": {"==": 6.0, "<=": 1.0, ">=": 1.0, "!=": 0.05},  # who rounds a number sets a time by it
     "point": {"==": 6.0, "<=": 2.0, ">=": 1.0, "!=": 0.05},
     "sampled": {"==": 9.0},
     "real condition": {"==": 0.2, "<=": 1.5, ">=": 1.5, "<": 2.0, ">": 2.0, "!=": 0.05},
@@ -49,7 +52,8 @@ def sort_of(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
     if is_demand and SAMPLED.search(site.text):
         sort = "sampled"
     elif is_demand:
-        sort = "point" if is_point else "time" if _is_about_time(site) else "value"
+        is_rounded = _ROUNDED.search(site.text) is not None
+        sort = "point" if is_point else "value" if not _is_about_time(site) else "rounded" if is_rounded else "time"
     else:
         is_truth = any(word in TRUTHS for word in WORD.findall(site.text))
         sort = "truth condition" if is_truth else "real condition" if _REAL.search(site.text) else "condition"
@@ -77,6 +81,22 @@ def sum_of(edit: SmallEdit, site: EditSite, sign: str = "") -> tuple[str, str, s
 def sign_of(word: str) -> str:
     """A comparison as a sign, also where a function is its name."""
     return _SIGNS.get(word, word)
+
+
+def compared(text: str) -> str:
+    """A comparison that is written as a call, with its sign: each operand stays where it stands in the line."""
+    found = _NAMED.fullmatch(text)
+    if found is None:
+        return text
+    before, name, opening, left, comma, right, closing, end = found.groups()
+    sign = sign_of(name)
+    if len(sign) > len(comma):
+        sign = sign[:1] if name != "eq" else ""
+    return (
+        f"{before}{' ' * len(name + opening)}{left}{sign:{len(comma)}}{right}{' ' * len(closing)}{end}"
+        if sign
+        else text
+    )
 
 
 def _is_about_time(site: EditSite) -> bool:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from checker.mutation.edits import REPAIRS, EditKind, EditSite, SmallEdit
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -29,7 +29,8 @@ def mutants_of(sites: Sequence[EditSite], seed: int) -> Iterator[Mutant]:
     """All mutants in an order that `seed` decides: a kind after the other, of each kind a line after the other."""
     chance = np.random.default_rng(seed)
     waiting: dict[EditKind, list[Mutant]] = {}
-    for kind in EditKind:
+    kinds = [kind for kind in EditKind if kind not in REPAIRS]
+    for kind in kinds:
         at = [(site, [edit for edit in site.edits if edit.kind is kind]) for site in sites]
         pending = [(site, [edits[k] for k in chance.permutation(len(edits))]) for site, edits in at if edits]
         pending = [pending[k] for k in chance.permutation(len(pending))]
@@ -39,6 +40,6 @@ def mutants_of(sites: Sequence[EditSite], seed: int) -> Iterator[Mutant]:
         ]
         waiting[kind].reverse()
     while any(waiting.values()):
-        for kind in EditKind:
+        for kind in kinds:
             if waiting[kind]:
                 yield waiting[kind].pop()

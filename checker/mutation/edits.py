@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
-from checker.mutation.exchanges import exchangeable, exchanged, misplaced
+from checker.mutation.exchanges import exchangeable, exchanged, misplaced, shortened
 from checker.mutation.names import other_names, other_points, other_tokens, other_values, tautologies
 from checker.mutation.scope import LineScope, Scopes
 from nddl_lang.semantics.constraints import CONSTRAINTS
@@ -79,10 +79,12 @@ class EditKind(StrEnum):
     DROPPED_CONSTRAINT = "dropped constraint"
     DROPPED_BRANCH = "dropped branch"
     OPERATOR = "operator"  # a product for a sum
+    TERM = "term"  # of a sum or product, left out
 
 
 OUTSIDE = (EditKind.MISSION, EditKind.GOAL, EditKind.PROMISE)  # of any model
 DROPPED = (EditKind.DROPPED_CONSTRAINT, EditKind.DROPPED_BRANCH)
+REPAIRS = (EditKind.TERM,)  # tried as causes, and not made as faults
 
 
 @dataclass(frozen=True, slots=True)
@@ -332,6 +334,7 @@ class _Reader:
                 if op in ("+", "*"):
                     yield EditKind.OPERATOR, span, "*" if op == "+" else "+"
                 yield from ((EditKind.ARGUMENTS, *each) for each in misplaced(node))
+                yield from ((EditKind.TERM, span, new) for span, new in shortened(node))
             case UnaryExpr(op="-", operand=operand, span=span):
                 yield EditKind.SIGN, span, operand.span.text
             case Relation(relation=relation, bounds=()):

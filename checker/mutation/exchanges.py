@@ -1,4 +1,4 @@
-"""A call or an expression in; out: which of its arguments or operands may have been written in each other's place."""
+"""A call or an expression in; out: which of its arguments or operands may be in each other's place, or too many."""
 
 from collections.abc import Iterator
 
@@ -29,6 +29,15 @@ def misplaced(node: BinaryExpr) -> Iterator[tuple[Span, str]]:
             for factor in (one.left, one.right):
                 if isinstance(factor, PathExpr):
                     yield exchanged(*sorted((factor, other), key=lambda each: each.span.begin))
+
+
+def shortened(node: BinaryExpr) -> Iterator[tuple[Span, str]]:
+    """A sum, difference, product or quotient without one of its operands, where that is a name."""
+    if node.op not in ("+", "-", "*", "/"):
+        return
+    for left_out, kept in ((node.right, node.left), (node.left, node.right)):
+        if isinstance(left_out, PathExpr) and (kept is node.left or node.op in ("+", "*")):
+            yield node.span, kept.span.text
 
 
 def exchanged(first: Expr, second: Expr) -> tuple[Span, str]:

@@ -140,14 +140,19 @@ class _ElementReader(TermReader):
             kind = ElementKind.DURATION
         spans = self.database.code.spans
         place = _place_of(spans[cause.span]) if 0 <= cause.span < len(spans) else None
-        place = self.place_beyond(found, cause.span, kind) or place
         token = self.token_name(cause.owner) if cause.owner >= 0 else None
+        place = self.place_beyond(found, cause.span, kind, token) or place
         return _element(kind, place, token, found, terms)
 
-    def place_beyond(self, found: Term | ResourceTerm, span: int, kind: ElementKind) -> SourcePlace | None:
-        """Where something is written that no line of a rule says; None where it is not."""
+    def place_beyond(
+        self, found: Term | ResourceTerm, span: int, kind: ElementKind, token: TokenName | None
+    ) -> SourcePlace | None:
+        """Where something is written that no line of a rule says; None where it is not.
+
+        `token` is what brought it: of a request, the token that was asked for, whatever it is merged with.
+        """
         if span == SPAN_REQUEST:
-            return self._asked(found)
+            return self._asked(found, token)
         return self._declared(found) if span == NONE and kind is ElementKind.DECLARATION else None
 
     def _declared(self, found: Term | ResourceTerm) -> SourcePlace | None:
@@ -164,12 +169,12 @@ class _ElementReader(TermReader):
                 return _place_of(made.span) if member in given else None
         return None
 
-    def _asked(self, found: Term | ResourceTerm) -> SourcePlace | None:
+    def _asked(self, found: Term | ResourceTerm, token: TokenName | None) -> SourcePlace | None:
         """Where the mission file bounds a time or parameter of a goal."""
         about = found.arguments[0] if isinstance(found, Term) and found.arguments else None
         if not isinstance(about, VariableName) or about.token is None:
             return None
-        number = self.bench.goal_numbers.get(about.token.key)
+        number = self.bench.goal_numbers.get((token or about.token).key)
         return None if number is None else dict(self.bench.goals[number].places).get(about.name)
 
     def term(self, cause: Cause) -> Term | ResourceTerm:
@@ -252,8 +257,9 @@ class SearchLog:
     def _element(self, found: FoundCause) -> ConflictElement:
         kind = _element_kind(found.term, found.number, is_declared=found.origin is CauseOrigin.DECLARED)
         place = None if found.span is None else _place_of(found.span)
-        place = self.reader.place_beyond(found.term, found.number, kind) or place
-        return _element(kind, place, self.reader.tokens.get(found.owner), found.term, ())
+        token = self.reader.tokens.get(found.owner)
+        place = self.reader.place_beyond(found.term, found.number, kind, token) or place
+        return _element(kind, place, token, found.term, ())
 
 
 def _element(

@@ -25,4 +25,7 @@ cpdef bint activate(Plan plan, long long t, long long span) except -1
 cpdef bint merge(Plan plan, long long t, long long other, long long span) except -1
 
 
+cdef long long _word(Plan plan, long long v, long long span) except? -99
+
+
 cpdef bint reject(Plan plan, long long t, long long span) except -1

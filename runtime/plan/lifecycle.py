@@ -99,7 +99,7 @@ def merge(plan: Plan, t: int, other: int, span: int) -> bool:
         else:
             equate(plan, scope, a, b, span)
         if engine.is_decided(a) and not engine.is_decided(b) and engine.is_singleton(a):
-            decide(plan, scope, b, engine.lower(a), span)
+            decide(plan, scope, b, engine.lower(a), _word(plan, a, span))
         if plan.variable_guards[a]:
             follow(plan, scope, a, b, span)
         if rows.level and not engine.consistent:
@@ -107,6 +107,17 @@ def merge(plan: Plan, t: int, other: int, span: int) -> bool:
     if rows.level:
         entail_distance(engine, mine + DURATION)
     return fire(plan)
+
+
+def _word(plan: Plan, v: int, span: int) -> int:
+    """The span under which somebody outside of the plan gave a variable its value; `span` where nobody did."""
+    engine = plan.engine
+    r = engine.restriction_head[v]
+    while r >= 0:
+        if engine.restriction_span[r] < NONE:
+            return engine.restriction_span[r]
+        r = engine.restriction_next[r]
+    return span
 
 
 def reject(plan: Plan, t: int, span: int) -> bool:

@@ -6,8 +6,10 @@ import pytest
 
 from checker.counterfactual.bounds import Directions
 from checker.counterfactual.candidates import Candidate, Suspicion
+from checker.counterfactual.numbers import between
 from checker.counterfactual.smallness import Usage, cost_of, delay_of, usage_of
 from checker.counterfactual.turns import Turns
+from checker.counterfactual.word_odds import compared
 from checker.mission import read_mission
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
 from checker.mutation.mission_edits import mission_sites
@@ -132,3 +134,57 @@ def test_a_goal_may_come_as_soon_as_the_one_before_it(tmp_path: Path) -> None:
     assert mission is not None, found
     times = [[edit.new for edit in mission_sites(mission)["goal", number][0].edits] for number in (0, 1)]
     assert times == [["[0, 100]", "[5, 100]"], ["[0, 100]", "[40, 95]", "[90, 100]"]]
+
+
+def test_a_part_of_a_sum_or_product_is_left_out_sooner_where_both_parts_are_one_name(tmp_path: Path) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_text(
+        "class T extends Timeline { predicate P { int n; int m; } }\n"
+        "T::P { contains(T.P c); c.n == n + n; c.m == m * n; duration == (n + m) * c.n; duration >= n / m; }\n"
+    )
+    found = sites_of(load_graph(path, ()))
+    usage = usage_of(found)
+    left = {site.text: {e.new for e in site.edits if e.kind is EditKind.TERM} for site in found if site.edits}
+    assert left["c.n == n + n;"] == {"n"}
+    assert left["c.m == m * n;"] == {"m", "n"}
+    assert left["duration == (n + m) * c.n;"] == {"(n + m)", "n", "m"}
+    assert left["duration >= n / m;"] == {"n"}
+    twice, once = (change(found, text, EditKind.TERM, "n") for text in ("c.n == n + n;", "c.m == m * n;"))
+    assert cost_of(*twice, usage) < cost_of(*once, usage)
+    sooner, later = delay_of(*twice, usage), delay_of(*once, usage)
+    assert sooner is not None and later is not None and sooner < later
+
+
+def test_a_comparison_that_is_written_as_a_call_is_read_as_one(tmp_path: Path) -> None:
+    assert compared("leq(speed, MOST);") == "    speed<=MOST ;"
+    assert compared("eq(a,b);") == "eq(a,b);"  # no room for a sign between its operands
+    path = tmp_path / "m.nddl"
+    path.write_text(
+        "int MOST = 4;\n"
+        "class T extends Timeline { predicate P { int n; } }\n"
+        "T::P { contains(T.P c); eq(c.n, MOST); before(T.P d); d.n == MOST; leq(n, MOST); }\n"
+    )
+    found = sites_of(load_graph(path, ()))
+    usage = usage_of(found)
+    for line in ("eq(c.n, MOST);", "d.n == MOST;"):
+        (site,) = (site for site in found if site.text == line)
+        assert [edit.old for edit in site.edits if edit.new == "n" and usage.is_fitting(edit, site)] == ["MOST"]
+    (site,) = (site for site in found if site.text == "leq(n, MOST);")
+    assert {usage.directions.of(edit, site) for edit in site.edits if edit.old == "MOST"} == {1}
+
+
+def test_a_duration_that_is_rounded_is_set_and_not_bounded(sites: list[EditSite]) -> None:
+    rounded = SmallEdit(EditKind.COMPARISON, "/m.nddl", 9, 11, "==", "<=", 1)
+    odds = [
+        usage_of(sites).odds(rounded, EditSite("/m.nddl", 1, 1, 1, "T.P", (1, 2), text, (rounded,)))
+        for text in ("duration == ceil(time);", "duration == limit;")
+    ]
+    assert odds[0] > odds[1]
+
+
+def test_a_number_is_changed_less_where_a_large_change_is_as_bad_in_another_way(sites: list[EditSite]) -> None:
+    (site,) = (site for site in sites if site.named == "EACH")
+    large = {edit.new: edit for edit in site.edits if edit.kind is EditKind.CONSTANT}
+    assert [edit.new for edit in between(large["160"], site)] == ["32"]
+    assert [edit.new for edit in between(large["2"], site)] == ["8"]
+    assert between(large["32"], site) == []

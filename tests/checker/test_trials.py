@@ -5,13 +5,14 @@ from pathlib import Path
 
 from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import Candidate, Suspicion
+from checker.counterfactual.damage import collapsed_of
 from checker.counterfactual.smallness import cost_of, delay_of, usage_of
 from checker.counterfactual.trials import Bounds, Missions, Trials, Try, try_out
 from checker.counterfactual.turns import Turns
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
 from checker.mutation.variant import load_graph
 from checker.oracle import Judgement, Verdict
-from runtime.executive.outcome import Outcome
+from runtime.executive.outcome import Event, EventKind, Outcome, Phase
 
 MODEL = """#include "TREX.nddl"
 int GRACE;
@@ -126,3 +127,16 @@ def test_a_word_that_left_a_flight_without_an_end_waits_at_other_lines() -> None
         _, each, edit = turns.pop()
         order.append((each.site.text, edit.new))
     assert order == [("one", "green"), ("other", "green"), ("other", "amber")]
+
+
+def test_a_mission_that_passes_as_a_token_takes_no_time_any_more_has_lost_something() -> None:
+    def flown(ends: int) -> MissionResult:
+        seen = [("Bare", 0), ("Flies", 20), ("Bare", 20 + ends)]
+        events = tuple(
+            Event(tick, Phase.START, EventKind.OBSERVATION, "sea", "mast", predicate, (), ())
+            for predicate, tick in seen
+        )
+        return MissionResult(1, 1, Judgement(Verdict.PASS), Outcome(1, 90, 200, None, (), events, ()), True)
+
+    assert collapsed_of(flown(1), flown(40)) > collapsed_of(flown(8), flown(40)) == 0.0
+    assert collapsed_of(flown(1), flown(1)) == 0.0

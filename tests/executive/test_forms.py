@@ -7,7 +7,7 @@ import pytest
 
 from checker.counterfactual.search import sites_in
 from checker.mission import read_mission
-from checker.mutation.edits import OUTSIDE, EditKind
+from checker.mutation.edits import OUTSIDE, REPAIRS, EditKind
 from runtime.user.limit import WATCH
 from tests.executive.mutants.campaign import Campaign, departures
 from tests.executive.mutants.flights import FILES, SlowError, at_most, edit_of
@@ -59,4 +59,4 @@ def test_a_fault_of_every_kind_is_drawn() -> None:
         assert mission is not None
         sites = sites_in(mission.agent)
         drawn |= {edit.kind for _ in range(20) if (edit := edit_of(sites, chance)) is not None}
-    assert drawn == set(EditKind) - set(OUTSIDE)
+    assert drawn == set(EditKind) - set(OUTSIDE) - set(REPAIRS)

@@ -24,7 +24,7 @@ from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from checker.mutation.edits import REPAIRS, EditKind, EditSite, SmallEdit
 from checker.mutation.variant import open_over, with_edit
 from checker.pinned import pinned
 from runtime.executive.configuration import AgentConfiguration
@@ -77,7 +77,8 @@ def edit_of(sites: Sequence[EditSite], chance: random.Random) -> SmallEdit | Non
     kinds: dict[EditKind, list[SmallEdit]] = {}
     for site in sites:
         for edit in site.edits:
-            kinds.setdefault(edit.kind, []).append(edit)
+            if edit.kind not in REPAIRS:
+                kinds.setdefault(edit.kind, []).append(edit)
     return chance.choice(kinds[chance.choice(list(kinds))]) if kinds else None
 
 

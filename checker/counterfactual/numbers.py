@@ -1,0 +1,48 @@
+"""Edits of numbers in; out: by how much, which way, and between which others each changes its number."""
+
+import math
+
+from checker.mutation.edits import EditKind, EditSite, SmallEdit
+
+NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
+
+
+def is_doubling(edit: SmallEdit) -> bool:
+    """Whether a number becomes twice or half as large."""
+    return edit.kind is EditKind.CONSTANT and float(edit.new) in (2.0 * float(edit.old), 0.5 * float(edit.old))
+
+
+def between(edit: SmallEdit, site: EditSite) -> list[SmallEdit]:
+    """Where a number changes by more than a doubling or halving, that of the same number and direction."""
+    if edit.kind is not EditKind.CONSTANT or octaves(edit) <= 1.0 or float(edit.new) * float(edit.old) <= 0.0:
+        return []
+    same = [one for one in site.edits if one.begin == edit.begin and one.kind is EditKind.CONSTANT]
+    return [one for one in same if is_doubling(one) and is_raised(one) == is_raised(edit)]
+
+
+def is_step(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether a number is a 1 that is added or taken away."""
+    return edit.old == "1" and site.text[: edit.begin - site.begin].rstrip().endswith(("+", "-"))
+
+
+def is_farthest(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether no edit changes the number more in this direction without a change of its sign."""
+    rivals = (one for one in site.edits if one.begin == edit.begin and one.kind is EditKind.CONSTANT)
+    same = [one for one in rivals if is_raised(one) == is_raised(edit) and float(one.new) * float(one.old) >= 0.0]
+    return octaves(edit) >= max((octaves(one) for one in same if float(one.new) != 0.0), default=0.0)
+
+
+def is_raised(edit: SmallEdit) -> bool:
+    """Whether a number becomes greater."""
+    return edit.kind in NUMERIC and float(edit.new) > float(edit.old)
+
+
+def octaves(edit: SmallEdit) -> float:
+    """By how many doublings a constant changes; one that changes its sign, or becomes 0, by many."""
+    old, new = float(edit.old), float(edit.new)
+    return abs(math.log2(new / old)) if old * new > 0.0 else 4.0
+
+
+def digits(number: str) -> int:
+    """Significant digits: people choose round numbers."""
+    return len(number.lstrip("-").replace(".", "").strip("0")) if "." in number else len(number.lstrip("-").rstrip("0"))

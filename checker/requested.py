@@ -1,0 +1,143 @@
+"""Programs and an argument that a reactor was asked for in, the lines out by which its senders came to ask for it.
+
+A static slice, against the way of the value: from the argument of a child through local variables of the same rule to
+parameters of its own token, and on through the rules that ask for that token, in whatever reactor.
+"""
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from checker.counterfactual.instructions import flat
+from checker.influence import InfluenceLine, line_of
+from checker.names import relative_name
+from compiler.program import (
+    FIRST_PARAMETER,
+    Assign,
+    Child,
+    Constant,
+    GlobalVariable,
+    LocalVariable,
+    NewGlobal,
+    NewVariable,
+    Operand,
+    Post,
+    Program,
+    RuleCode,
+    TokenVariable,
+)
+from runtime.executive.outcome import ConflictElement, ElementKind
+
+_EQUAL = "eq"
+_MOST = 6  # lines that are told of one argument
+
+
+def lines_that_ask(
+    element: ConflictElement, programs: Mapping[str, Program], root: Path, held: Collection[str]
+) -> tuple[InfluenceLine, ...]:
+    """The lines by which an argument came to be asked for, the outermost first; none for a time.
+
+    `programs` are those of the reactors by name, `held` the predicates, without their classes, of what has happened:
+    others have asked for nothing.
+    """
+    variable = next(iter(element.variables), None)
+    if element.kind is not ElementKind.REQUEST or element.place is not None:
+        return ()
+    if variable is None or variable.token is None:
+        return ()
+    found: dict[InfluenceLine, None] = {}
+    first = (variable.token.predicate, variable.name)
+    done: set[tuple[str, str]] = set()
+    waiting = [first]
+    while waiting:
+        wanted = waiting.pop(0)
+        if wanted in done:
+            continue
+        done.add(wanted)
+        for reactor, program in programs.items():
+            for rule in program.rules if wanted != first or reactor != variable.reactor else ():
+                if rule.predicate.rpartition(".")[2] in held:
+                    lines, behind = _asking(program, rule, wanted, _value(element) if wanted == first else None)
+                    found |= dict.fromkeys(lines)
+                    waiting += [(rule.predicate, one) for one in behind]
+    return tuple(
+        replace(line, place=replace(line.place, file=relative_name(line.place.file, root)))
+        for line in reversed(list(found)[:_MOST])
+    )
+
+
+def _value(element: ConflictElement) -> float | None:
+    """The one number that was asked for; None where it is none."""
+    for term in element.terms:
+        match term.name, term.arguments:
+            case "bounds", (_, int() | float() as lower, int() | float() as upper) if lower == upper:
+                return float(lower)
+            case _:
+                pass
+    return None
+
+
+def _asking(
+    program: Program, rule: RuleCode, wanted: tuple[str, str], value: float | None
+) -> tuple[list[InfluenceLine], list[str]]:
+    """The lines of a rule that say what a parameter of a child is, and the own parameters that this comes from."""
+    predicate, name = wanted
+    body = list(flat(rule.body))
+    at = _position(program, predicate, name)
+    children = {step.slot for step in body if isinstance(step, Child) and step.predicate == predicate}
+    reached: set[Operand] = {TokenVariable(slot, at) for slot in children} if at >= 0 else set()
+    posts: list[Post] = []
+    numbers = dict(_numbers(program))
+    grows = bool(reached)
+    while grows:
+        grows = False
+        for step in body:
+            if isinstance(step, Post) and step not in posts and _sets(step, reached, numbers, value):
+                posts.append(step)
+                reached |= {one for one in step.operands if isinstance(one, LocalVariable)}
+                grows = True
+            elif isinstance(step, NewVariable) and step.copy_of is not None and LocalVariable(step.slot) in reached:
+                grows = grows or step.copy_of not in reached
+                reached.add(step.copy_of)
+    own = {one.variable for post in posts for one in post.operands if isinstance(one, TokenVariable) and one.token == 0}
+    own |= {one.variable for one in reached if isinstance(one, TokenVariable) and one.token == 0}
+    names = _names(program, rule.predicate)
+    behind = [names[one - FIRST_PARAMETER] for one in sorted(own) if 0 <= one - FIRST_PARAMETER < len(names)]
+    lines = [InfluenceLine(rule.predicate, rule.predicate.rpartition(".")[2], line_of(post.span)) for post in posts]
+    return lines, behind
+
+
+def _sets(post: Post, reached: Collection[Operand], numbers: Mapping[Operand, float], value: float | None) -> bool:
+    """Whether a constraint speaks of what is reached, and does not say that it is another value than was asked for."""
+    if not set(post.operands) & set(reached):
+        return False
+    others = [numbers[one] for one in post.operands if one in numbers]
+    is_given = post.name == _EQUAL and len(post.operands) == 2 and len(others) == 1
+    return not (is_given and value is not None and others[0] != value)
+
+
+def _numbers(program: Program) -> Iterator[tuple[Operand, float]]:
+    """The global variables and constants of which one number is known."""
+    for step in program.script:
+        if isinstance(step, NewGlobal | Assign) and step.domain is not None and step.domain.interval is not None:
+            lower, upper = step.domain.interval
+            target = GlobalVariable(step.index) if isinstance(step, NewGlobal) else step.target
+            if lower == upper:
+                yield target, float(lower)
+    for rule in program.rules:
+        for each in flat(rule.body):
+            for one in each.operands if isinstance(each, Post) else ():
+                if isinstance(one, Constant) and one.domain.interval is not None:
+                    lower, upper = one.domain.interval
+                    if lower == upper:
+                        yield one, float(lower)
+
+
+def _position(program: Program, predicate: str, name: str) -> int:
+    """The number of a parameter among the variables of a token; -1 where there is none."""
+    names = _names(program, predicate)
+    return FIRST_PARAMETER + names.index(name) if name in names else -1
+
+
+def _names(program: Program, predicate: str) -> list[str]:
+    return next(([one.name for one in each.parameters] for each in program.predicates if each.name == predicate), [])

@@ -1,0 +1,44 @@
+"""An argument that was asked for leads to the lines that asked, whatever the requested token is merged with."""
+
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from checker.causes import failed_by
+from checker.mission import read_mission
+from checker.models import load_models
+from checker.mutation.variant import load_over, open_over
+from checker.proofs.places import text_of
+from checker.requested import lines_that_ask
+from checker.sampling.seeds import mission_seed
+from checker.yardstick import open_flyer
+from nddl_lang.text.read import real_path
+from runtime.executive.outcome import ElementKind
+
+ROOT = Path(__file__).resolve().parents[2]
+TEMPLATE = ROOT / "models" / "templates" / "survey"
+
+pytestmark = pytest.mark.once
+
+
+def test_the_line_of_the_planner_is_told_that_asked_a_simulator_for_too_much() -> None:
+    mission, found = read_mission(TEMPLATE / "mission.toml")
+    assert mission is not None, found
+    path = real_path(TEMPLATE / "planner.nddl")
+    text = path.read_text()
+    overlay = ((str(path), text.replace("drive.distance == length;", "drive.distance == length + length;")),)
+    models = load_models(mission, open_over(overlay))
+    with open_flyer(mission, models) as flyer:
+        result = flyer.fly(models.agent, 1, mission_seed(mission.check.seed, 1), partial(load_over, overlay))
+    conflict = failed_by(result.outcome).conflict
+    assert conflict is not None
+    # The sonar's own rule has a child with which the requested token is merged.
+    terms = [(one, one.terms[0]) for one in conflict.elements if len(one.terms) == 1]
+    (element,) = [one for one, term in terms if term.name == "bounds" and one.variables[0].name == "distance"]
+    assert element.kind is ElementKind.REQUEST
+    programs = text_of(models.agent, models.programs).programs
+    lines = lines_that_ask(element, programs, Path(models.agent.root), {"Leg", "Drive", "Scan"})
+    line = text[: text.index("drive.distance")].count("\n") + 1
+    assert [(one.rule, one.place.file, one.place.line) for one in lines] == [("Survey.Leg", "planner.nddl", line)]
+    assert lines_that_ask(element, programs, Path(models.agent.root), ()) == ()
