@@ -98,6 +98,7 @@ def story_data(story: Story, run_id: str, excerpts: Excerpts) -> dict[str, Any]:
         "run": run_id,
         "mission": story.number,
         "seed": story.seed,
+        "verdict": story.judgement.verdict.value,
         "code": story.judgement.code,
         "reason": failure_text(story.judgement, story.open_goals, story.refusal),
         "last_tick": story.last_tick,

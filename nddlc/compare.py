@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from checker.batch.result import MissionResult, write_record
-from checker.batch.store import RunStore, StoreError, open_store
+from checker.batch.store import RunStore, StoreError, read_store
 from checker.comparison import Comparison, Mission, Trialled, compare
 from checker.oracle import Verdict
 from checker.rendering import failure_text
@@ -53,7 +53,7 @@ def _missions(name: str, store_path: Path) -> dict[Mission, Trialled]:
     if not store_path.exists():
         raise Unusable(f"there is no store `{store_path}`", "`nddlc check` makes one; --store names another")
     try:
-        with open_store(store_path) as store:
+        with read_store(store_path) as store:
             return _stored(store, name)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None

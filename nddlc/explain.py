@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from checker.batch.result import MissionResult, read_record
-from checker.batch.store import LATEST, Run, RunStore, StoreError, open_store
+from checker.batch.store import LATEST, Run, RunStore, StoreError, read_store
 from checker.batch.worker import fly_one
 from checker.campaign import Campaign
 from checker.conditions.record import read_condition
@@ -77,7 +77,7 @@ def command(
     if not store_path.exists():
         raise Unusable(f"there is no store `{store_path}`", "`nddlc check` makes one; --store names another")
     try:
-        with open_store(store_path) as store:
+        with read_store(store_path) as store:
             found = _found(
                 store, name or LATEST, _number(number) if number else None, Bounds(flights, seconds), is_trusted
             )

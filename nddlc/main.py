@@ -53,6 +53,7 @@ COMMANDS = {
     ),
     "lsp": ("nddlc.lsp", "Serve an editor over standard input and output."),
     "rule": ("nddlc.rule", "Explain a code that a message carries."),
+    "schema": ("nddlc.schema", "Print the JSON schema of mission files, or of what a command prints."),
 }
 # What is slow where the engine is not compiled.
 _PLANNING = (

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from checker.batch.store import LATEST, StoreError, open_store
+from checker.batch.store import LATEST, StoreError, read_store
 from checker.buckets import group_failures
 from checker.oracle import Verdict
 from checker.rendering import failure_text
@@ -57,7 +57,7 @@ def shrunk_mission(what: str, store_path: Path, is_trusted: bool) -> ShrunkMissi
     if not store_path.exists():
         raise Unusable(f"there is no store `{store_path}`", "`nddlc check` makes one; --store names another")
     try:
-        with open_store(store_path) as store:
+        with read_store(store_path) as store:
             run = store.find(name or LATEST)
             if run is None:
                 raise Unusable(f"no single run is named `{name}`")

@@ -2,10 +2,11 @@
 
 import sqlite3
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from checker.batch.reading import readable_place
 from checker.batch.store import Run, StoreError, check_version, open_store, result_of
 from checker.batch.write_ahead_log import log_damage
 
@@ -30,7 +31,7 @@ class StoreDamage:
 
 def examine(path: Path) -> StoreDamage:
     """Look at every page and every row; raises StoreError where the file is no store of this version."""
-    with closing(_open(path)) as connection:
+    with _open(path) as connection:
         pages = _integrity(connection)
         runs = _runs(connection)
         whole, damaged = 0, []
@@ -40,14 +41,14 @@ def examine(path: Path) -> StoreDamage:
                     whole += 1
                 else:
                     damaged.append((run.id, number))
-    log = log_damage(path)
+    log = log_damage(path, path)
     return StoreDamage(len(runs), whole, tuple(damaged), (*pages, *([log] if log else [])))
 
 
 def salvage(path: Path, target: Path) -> StoreDamage:
     """Put what is whole of the store at `path` into a new one at `target`; the old one stays as it is."""
     found = examine(path)
-    with closing(_open(path)) as connection, open_store(target) as store:
+    with _open(path) as connection, open_store(target) as store:
         for run in _runs(connection):
             store.begin(run, keep=True)
             for number, is_whole in _numbers(connection, run):
@@ -58,20 +59,24 @@ def salvage(path: Path, target: Path) -> StoreDamage:
     return found
 
 
-def _open(path: Path) -> sqlite3.Connection:
+@contextmanager
+def _open(path: Path) -> Iterator[sqlite3.Connection]:
     """A connection that only reads, with the version checked."""
     if not path.is_file():
         raise StoreError(f"there is no store `{path}`", "`nddlc check` makes one; --store names another")
-    connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True, timeout=10.0)
-    try:
-        check_version(connection, path)
-    except sqlite3.Error as problem:
-        connection.close()
-        raise StoreError(f"nothing of `{path}` can be read: {problem}", "delete it; runs are flown again") from problem
-    except StoreError:
-        connection.close()
-        raise
-    return connection
+    with ExitStack() as stack:
+        try:
+            place = stack.enter_context(readable_place(path))
+        except OSError as problem:
+            raise StoreError(f"the store `{path}` cannot be read: {problem.strerror or problem}") from problem
+        try:
+            connection = sqlite3.connect(f"{place.resolve().as_uri()}?mode=ro", uri=True, timeout=10.0)
+            stack.enter_context(closing(connection))
+            check_version(connection, path)
+        except sqlite3.Error as problem:
+            lost = f"nothing of `{path}` can be read: {problem}"
+            raise StoreError(lost, "delete it; runs are flown again") from problem
+        yield connection
 
 
 def _integrity(connection: sqlite3.Connection) -> tuple[str, ...]:

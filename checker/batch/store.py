@@ -9,12 +9,13 @@ import sqlite3
 import time
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from checker.batch.lock import Locks
+from checker.batch.reading import readable_place
 from checker.batch.result import MissionResult, read_record, write_record
 from checker.batch.write_ahead_log import log_damage
 from checker.oracle import Verdict
@@ -67,6 +68,7 @@ CREATE TABLE IF NOT EXISTS missions (
     PRIMARY KEY (run, number)
 ) WITHOUT ROWID;
 """
+_READS = "--store names another one"
 _SALVAGE = "`nddlc store check` tells what is damaged, `nddlc store salvage` keeps what is whole"
 _NO_SPACE = ("SQLITE_FULL", "SQLITE_IOERR_WRITE", "SQLITE_IOERR_FSYNC", "SQLITE_IOERR_TRUNCATE", "SQLITE_IOERR_SHMSIZE")
 
@@ -297,7 +299,25 @@ def open_store(path: Path) -> Iterator[RunStore]:
             raise StoreError(f"`{path}` is no file that a store could be in")
     except OSError as problem:
         raise StoreError(f"the store `{path}` cannot be opened: {problem.strerror or problem}") from problem
-    store = RunStore(_connect(path), path)
+    with _opened(path, path) as store:
+        yield store
+
+
+@contextmanager
+def read_store(path: Path) -> Iterator[RunStore]:
+    """Open the store at `path` to read from it; nothing needs to be writable there."""
+    with ExitStack() as stack:
+        try:
+            place = stack.enter_context(readable_place(path))
+        except OSError as problem:
+            raise StoreError(f"the store `{path}` cannot be read: {problem.strerror or problem}", _READS) from problem
+        yield stack.enter_context(_opened(place, path))
+
+
+@contextmanager
+def _opened(place: Path, path: Path) -> Iterator[RunStore]:
+    """The store that lies at `place` and is called `path`."""
+    store = RunStore(_connect(place, path), path)
     try:
         yield store
     except BaseException:
@@ -307,13 +327,13 @@ def open_store(path: Path) -> Iterator[RunStore]:
     store.close()
 
 
-def _connect(path: Path) -> sqlite3.Connection:
+def _connect(place: Path, path: Path) -> sqlite3.Connection:
     """A connection to a store of this version; a new one gets its tables."""
     connection: sqlite3.Connection | None = None
     try:
-        if damage := log_damage(path):
+        if damage := log_damage(place, path):
             raise StoreError(f"the store `{path}` is damaged: {damage}", _SALVAGE)
-        connection = sqlite3.connect(path, timeout=10.0)
+        connection = sqlite3.connect(place, timeout=10.0)
         check_version(connection, path)
         connection.execute("PRAGMA journal_mode = WAL")
         connection.execute("PRAGMA synchronous = NORMAL")

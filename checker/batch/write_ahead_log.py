@@ -12,10 +12,13 @@ _MAGIC = 0x377F0682  # the last bit says in which order of bytes checksums are r
 _VERSION = 3007000
 
 
-def log_damage(store: Path) -> str:
-    """What is wrong with the log of a store; empty where there is none, or nothing is wrong with its header."""
+def log_damage(place: Path, store: Path) -> str:
+    """What is wrong with the log of a store at `place`; empty where there is none, or nothing is wrong with its header.
+
+    The log is called as that of `store`.
+    """
     try:
-        with Path(f"{store}-wal").open("rb") as log:
+        with Path(f"{place}-wal").open("rb") as log:
             header = log.read(_HEADER)
     except OSError:
         return ""

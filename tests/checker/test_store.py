@@ -1,6 +1,10 @@
 """A damaged store is told apart from a bug, and what is whole of it is kept."""
 
+import os
+import shutil
 import sqlite3
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -138,3 +142,32 @@ def test_a_log_that_sqlite_would_drop_without_a_word_is_told(
     assert run(["store", "salvage", str(store)]) == 0
     assert Path(f"{store}.damaged-wal").read_bytes() == written
     assert run(["store", "check", str(store)]) == 0
+
+
+@pytest.mark.once
+def test_a_store_where_nothing_may_be_written_is_read(store: Path, tmp_path: Path) -> None:
+    """Also what its log alone has; root may write anywhere, so it has to give that up first."""
+    plain = [] if os.geteuid() else ["setpriv", "--bounding-set", "-dac_override,-dac_read_search"]
+    if plain and shutil.which(plain[0]) is None:
+        pytest.skip("no setpriv")
+    archive = tmp_path / "archive"
+    archive.mkdir()
+    writer = sqlite3.connect(store)
+    writer.execute("DELETE FROM missions WHERE run = ? AND number > 3", (RUNS[1].id,))
+    writer.commit()
+    for part in ("", "-wal"):
+        shutil.copy(f"{store}{part}", archive / f"runs.sqlite{part}")
+    writer.close()
+    files = sorted(archive.iterdir())
+    for file in files:
+        file.chmod(0o444)
+    archive.chmod(0o555)
+    try:
+        path = str(archive / "runs.sqlite")
+        calls = [["store", "check", path], ["compare", "00ff", "00ff", "--store", path]]
+        text = f"from nddlc.main import run\nfor one in {calls}: print(run(one))"
+        found = subprocess.run([*plain, sys.executable, "-c", text], capture_output=True, text=True, check=True)
+        assert "is whole: 203 missions of 2 runs\n0\n3 missions in common" in found.stdout
+        assert sorted(archive.iterdir()) == files
+    finally:
+        archive.chmod(0o755)

@@ -7,9 +7,11 @@ from pathlib import Path
 from statistics import NormalDist
 from xml.etree import ElementTree
 
+import jsonschema
 import pytest
 
 from checker.sampling.seeds import mission_seed
+from checker.schemas import schema
 from checker.study.cells import StudyCell, findings_of, with_beyond
 from checker.study.reading import Variant, read_study
 from nddlc.main import run
@@ -64,6 +66,7 @@ def rates_above(limit: float, count: int, *, is_normal: bool) -> int:
 def test_a_study_counts_what_the_draws_decide(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code = run(["study", "gps/study.toml", "--workers", "2", "--format", "json"])
     data = json.loads(capsys.readouterr().out)
+    jsonschema.validate(data, schema("study"))
     cells = {(one["variant"], one["sampling"]): one for one in data["cells"]}
     assert {key: one["missions"] for key, one in cells.items()} == {
         ("base", "uniform inter"): 30, ("base", "normal inter"): 30,
