@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from lsp.occurrences import NameIndex, NameIndexer
+from lsp.roots import own_parts
 from lsp.uris import key_of
 from nddl_lang.analysis import Analyser, Analysis
 from nddl_lang.lint.configuration import find_configuration, read_configuration
@@ -102,6 +103,7 @@ class Project:
         self._kept, self._used = self._used, {}
         parses = {key_of(loaded.paths[parse.source]): parse for parse in loaded.parses}
         parses.pop(self.key, None)
+        linter.judged = own_parts(self.key, (self.key, *parses)) if parses else frozenset()
         analysis = analyser.analyse(loaded)
         found = tuple(self._configuration.choose((*self._gaps, *linter.lint(analysis))))
         parses = {self.key: loaded.parses[0], **parses}

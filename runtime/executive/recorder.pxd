@@ -18,13 +18,16 @@ cdef class Recorder:
     cdef public Rows rows
     cdef public Engine engine
     cdef public list object_names, predicate_names
-    cdef public dict tokens, requests, agreed, gone, kept
+    cdef public dict tokens, requests, agreed, gone, gone_of, kept
     cdef public long long synchronised
     cdef public bint is_lost
     cdef public tuple script_tokens
 
     @cython.locals(parent="long long")
     cpdef int detach(self, long long t) except -1
+
+    @cython.locals(rows=Rows)
+    cpdef int _part(self, long long t, long long parent) except -1
 
     @cython.locals(engine=Engine, found=dict, rows=Rows, t="long long")
     cpdef int cut(self) except -1
@@ -69,8 +72,8 @@ cdef class Recorder:
     @cython.locals(found=list, h="long long", plan=Plan, rows=Rows, v="long long")
     cpdef tuple _made_locals(self, long long s)
 
-    @cython.locals(child="long long", found=list, rows=Rows)
-    cpdef tuple _made_children(self, long long s)
+    @cython.locals(child="long long", found=set, rows=Rows)
+    cpdef tuple _made_children(self, long long s, long long key)
 
     @cython.locals(engine=Engine, lower=double, upper=double)
     cpdef object value(self, long long v, long long shape)

@@ -81,6 +81,7 @@ class Recorder:
         self.is_lost = False  # no repair has helped: the plan as the last one left it is nobody's
         self.kept: dict[int, None] = {}  # keys of tokens that are recorded, and in the plan again without their rules
         self.gone: dict[tuple[int, int], int] = {}  # (key of a parent, row of a child that left before it) -> its key
+        self.gone_of: dict[tuple[int, int], list[int]] = {}  # (key of a parent, scope) -> keys of those that it made
         self.witness: Callable[[list[int]], None] | None = None  # is told of tokens before they leave
         self.script_tokens = self._script_tokens()
         self.predicate_names = [predicate.name for predicate in database.program.predicates]
@@ -97,14 +98,19 @@ class Recorder:
         for t in tokens:
             parent = rows.parent[t]
             if parent >= 0 and parent not in leaving:
-                self.gone[rows.key[parent], t] = rows.key[t]
+                self._part(t, parent)
             self.tokens[rows.key[t]] = self._token(t, "over", tick)
 
     def detach(self, t: int) -> None:
-        """Note a child that is to stand by itself from now on."""
+        """Note a child that stands by itself from now on, or leaves before its parent."""
         parent = self.rows.parent[t]
         if parent >= 0:
-            self.gone[self.rows.key[parent], t] = self.rows.key[t]
+            self._part(t, parent)
+
+    def _part(self, t: int, parent: int) -> None:
+        rows = self.rows
+        self.gone[rows.key[parent], t] = rows.key[t]
+        self.gone_of.setdefault((rows.key[parent], rows.creator[t]), []).append(rows.key[t])
 
     def cut(self) -> None:
         """Record what has begun before a repair or a recall takes things away; what stays is recorded again later."""
@@ -215,7 +221,7 @@ class Recorder:
         children: tuple[int, ...] = ()
         if form.has_loop:
             named = self._made_locals(s)
-            children = self._made_children(s)
+            children = self._made_children(s, key)
         else:
             frame, cells = rows.scope_frame[s], rows.cells
             if form.locals:
@@ -265,14 +271,14 @@ class Recorder:
         """The shape of a local variable."""
         return _OF_KIND[self.engine.kind[v]]
 
-    def _made_children(self, s: int) -> tuple[int, ...]:
-        """The children that a scope made, in that order; those that left before their parent are missing."""
+    def _made_children(self, s: int, key: int) -> tuple[int, ...]:
+        """The children that a scope of the token `key` made, in that order, those that left before it as well."""
         rows = self.rows
-        found = []
+        found = set(self.gone_of.get((key, s), ()))
         child = rows.children[rows.scope_token[s]]
         while child >= 0:
             if rows.creator[child] == s:
-                found.append(int(rows.key[child]))
+                found.add(int(rows.key[child]))
             child = rows.sibling[child]
         return tuple(sorted(found))
 

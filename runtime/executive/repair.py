@@ -21,7 +21,10 @@ def relax(
         present = {token for line in timelines for token in (line.current, seen.get(line.name, NOTHING))}
         happened, uses = past.outlines(tick), past.uses(tick)
         over = [token for token in bench.all_tokens() if bench.is_over(token, tick) and not bench.is_kept(token)]
-        bench.remove([token for token in over if token not in present])
+        forgotten = [token for token in over if token not in present]
+        for token in forgotten:
+            bench.recorder.detach(token)
+        bench.remove(forgotten)
     for token in bench.all_tokens():
         if not bench.is_freed(token) and bench.is_waiting(token, tick):
             bench.cancel(token)

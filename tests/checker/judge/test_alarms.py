@@ -1,11 +1,15 @@
 """The judge raises no false alarms: missions in which it once did."""
 
+from pathlib import Path
+from shutil import copytree
 from typing import Any
 
 import pytest
 
 from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
+from checker.mission import read_mission
+from checker.models import load_models
 from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.mission import record_mission
 from runtime.executive.record import ValueRange
@@ -13,6 +17,9 @@ from tests.checker.judge.corruption import again
 from tests.checker.judge.missions import walking
 from tests.executive.determined_models import random_case
 from tests.executive.flying import Flown, flown, planner, simulator
+from tests.programs import programs_of
+
+KILN = Path(__file__).parents[1] / "unseen/kiln"
 
 # 7: a guard at a real that is near its bound; 85 and 428: numbers beyond all bounds; 3372: a merged token that left the
 # plan before a repair gave up the bound of its end.
@@ -27,6 +34,22 @@ def test_a_right_mission_raises_no_alarm(number: int, compiles: bool) -> None:
     report = judge_mission(agent, programs.programs, outcome, record)
     assert [disagreement_text(one) for one in report.disagreements] == []
     assert report.judged > 100
+
+
+def test_what_a_loop_asked_for_is_told_apart_when_a_repair_has_forgotten_some_of_it(tmp_path: Path) -> None:
+    folder = copytree(KILN, tmp_path / "kiln")
+    planner = folder / "planner.nddl"
+    right, wrong = (f"    {relation}(Door.Open first);" for relation in ("contains", "met_by"))
+    assert right in planner.read_text()
+    planner.write_text(planner.read_text().replace(right, wrong))
+    agent = load_models(read_mission(folder / "mission.toml")[0]).agent
+    programs = programs_of(agent)
+    outcome, record = record_mission(agent, programs, 0)
+    assert any(one.fate == "cut" for each in record.reactors for one in each.tokens)
+    report = judge_mission(agent, programs.programs, outcome, record, programs.constraints)
+    assert [disagreement_text(one) for one in report.disagreements] == []
+    (fire,) = [one for each in record.reactors for one in each.tokens if one.predicate == "Plan.Fire"]
+    assert [each.children for each in fire.runs] == [(6, 7, 8)]
 
 
 @pytest.mark.parametrize(("later", "found"), [(5, set()), (0, {"overlap"})])
