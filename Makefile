@@ -13,6 +13,7 @@
 #   make sampling-study  BATCHES (10000) simulated batches per sampler: how often each interval covers the true rate
 #   make truths       conditions of models whose truth is known, each on FRESH (2000) fresh missions
 #   make kills        KILLS (20) batches killed by SIGKILL and as many by SIGTERM, resumed, beside undisturbed ones
+#   make agents       AGENTS (500) random missions of random reactors, flown in every way and put to an oracle of their traces
 #   make mutants      MUTANTS (2000) faulty missions, flown compiled, interpreted and by the general engine, and judged
 #   make renames      rename every name of every model, and compare what the models mean
 #   make editor-proof EXAMPLES (100000) scripts of keystrokes beside a cold start, as many edits and hostile messages;
@@ -29,6 +30,7 @@
 
 MUTATIONS ?= 1000000
 MUTANTS ?= 2000
+AGENTS ?= 500
 MISSION ?= models/auv/inl/mission.toml
 PYTHON := python3.11 python3.12 python3.13 python3.14 python3 python
 BIN := .venv/bin
@@ -38,7 +40,7 @@ TICKING := $(BIN)/python build_backend/ticking.py
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study truths kills mutants renames editor-proof vsix conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study truths kills mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -138,6 +140,9 @@ kills: build
 
 mutants: build
 	$(BIN)/python -m tests.executive.mutants.campaign $(MUTANTS)
+
+agents: build
+	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS)
 
 renames: build
 	NDDLC_RENAMES=all $(PYTEST) tests/lsp/test_rename_everything.py

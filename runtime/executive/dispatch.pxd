@@ -1,7 +1,7 @@
 # The C types of `dispatch.py`.
 
 cimport cython
-from runtime.executive.holding cimport is_blocked, is_tied
+from runtime.executive.holding cimport free_at, is_blocked, is_tied
 from runtime.executive.timelines cimport TimelineState
 from runtime.executive.view cimport whole_bound
 from runtime.executive.workbench cimport Workbench
@@ -39,6 +39,9 @@ cdef class Dispatch:
 
     @cython.locals(bench=Workbench, start="long long", time=double)
     cpdef double due_time(self, TimelineState line, long long token, long long tick) except? -1.0
+
+    @cython.locals(before="long long", bench=Workbench, token="long long")
+    cpdef double next_due(self, TimelineState line, long long tick) except? -1.0
 
     @cython.locals(before="long long", bench=Workbench, token="long long")
     cpdef long long next_request(self, TimelineState line) except? -1

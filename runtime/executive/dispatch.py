@@ -1,6 +1,6 @@
 """Decide which planned tokens are asked of the owners of their timelines, and when requests are taken back."""
 
-from runtime.executive.holding import is_blocked, is_tied
+from runtime.executive.holding import free_at, is_blocked, is_tied
 from runtime.executive.messages import Request
 from runtime.executive.outcome import EventKind, TimeBounds
 from runtime.executive.timelines import NOTHING, TimelineState
@@ -118,6 +118,21 @@ class Dispatch:
         time = self.bench.upper(start) if is_late else self.bench.lower(start)
         # What has not started may do so from the next tick on.
         return time - max(self.notice(line), 1)
+
+    def next_due(self, line: TimelineState, tick: int) -> float:
+        """The next tick at which something may have to be asked for on a timeline, if nothing happens until then."""
+        bench = self.bench
+        token = self.next_request(line)
+        if token != NOTHING:
+            return max(self.due_time(line, token, tick), free_at(bench, token, line.current, tick))
+        # What waits for the end of what is open there is to be asked for when it cannot wait any more.
+        before = line.current if line.current != NOTHING and self.is_asked(line.current) else NOTHING
+        token = bench.next_of(line.object_id, line.current)
+        while token != NOTHING:
+            if before != NOTHING and not is_tied(bench, bench.end(before), bench.start(token)):
+                return tick + bench.upper(bench.start(token)) - bench.lower(bench.end(before))
+            before, token = token, bench.following(token)
+        return INFINITY
 
     def next_request(self, line: TimelineState) -> int:
         """The planned token that is to be asked for next; NOTHING while another is open, or where none is planned.

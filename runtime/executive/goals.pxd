@@ -12,8 +12,8 @@ cdef class Goals:
     cdef public str name
     cdef public Workbench bench
     cdef public object trace, repair
-    cdef public list timelines, waiting, posted, to_recall, refusals, given_up
-    cdef public dict lines, rejections
+    cdef public list timelines, waiting, posted, to_recall, refusals
+    cdef public dict lines, rejections, given_up
     cdef public bint is_changed
 
     @cython.locals(goal=Goal, is_rejected=bint)

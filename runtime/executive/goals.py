@@ -37,7 +37,7 @@ class Goals:
         self.posted: list[Goal] = []
         self.to_recall: list[int] = []
         self.refusals: list[Refusal] = []
-        self.given_up: list[OpenGoal] = []
+        self.given_up: dict[int, OpenGoal] = {}  # mandatory ones, by the number of the request
         self.is_changed = False  # something was posted or taken out of the plan
         self.repair: Repair | None = None
         self.rejections: dict[int, Deadlock] = {}  # what the planner knows of the goals that it has rejected
@@ -92,14 +92,14 @@ class Goals:
 
     def _recall(self, number: int, tick: int) -> None:
         """Drop a request; a token that has begun goes on to its own end (T-REX 1.8)."""
-        self.waiting = [request for request in self.waiting if request.number != number]
+        for request in [request for request in self.waiting if request.number == number]:
+            self.waiting.remove(request)
+            self._note_recalled(request)
         for goal in self.live():
             if goal.request.number != number:
                 continue
             goal.is_closed = True
-            if goal.request.is_mandatory:
-                request, why = goal.request, Reason(ReasonKind.RECALLED)
-                self.given_up.append(OpenGoal(request.timeline, request.predicate, request.arguments, why))
+            self._note_recalled(goal.request)
             if self.bench.is_alive(goal.token, goal.token_key) and not self.bench.is_started(goal.token, tick):
                 self.bench.recorder.cut()
                 seen = hold_present(self.bench, self.timelines)
@@ -107,6 +107,11 @@ class Goals:
                 stand(self.bench, self.timelines, seen)
                 self.is_changed = True
                 self.reopen()
+
+    def _note_recalled(self, request: Request) -> None:
+        if request.is_mandatory:
+            goal = OpenGoal(request.timeline, request.predicate, request.arguments, Reason(ReasonKind.RECALLED))
+            self.given_up.setdefault(request.number, goal)
 
     # ---- giving up ----
 
@@ -124,7 +129,8 @@ class Goals:
         )
         self.refusals.append(Refusal(request, event))
         if request.is_mandatory:
-            self.given_up.append(OpenGoal(request.timeline, request.predicate, request.arguments, why, event))
+            goal = OpenGoal(request.timeline, request.predicate, request.arguments, why, event)
+            self.given_up[request.number] = goal
 
     def _give_up(self, request: Request, kind: ReasonKind, tick: int, deadlock: Deadlock | None = None) -> None:
         """Tell that a goal of the plan will not be met, and what is known of why.
@@ -157,7 +163,7 @@ class Goals:
         self.refusals.append(Refusal(request, event))
         if request.is_mandatory:
             goal = OpenGoal(request.timeline, request.predicate, request.arguments, why, event, conflict, deadlock)
-            self.given_up.append(goal)
+            self.given_up[request.number] = goal
 
     def note_repair(self, repair: Repair, watched: tuple[Watched, ...] = ()) -> None:
         """Keep why the plan is repaired: where a goal is at stake, told on through the other reactors."""
@@ -184,15 +190,7 @@ class Goals:
                 self._give_up(goal.request, ReasonKind.REJECTED, tick, self.rejections.pop(goal.token, None))
             elif goal.is_rejected and not is_rejected:
                 goal.is_rejected = False
-                self._forgive(goal.request)
-
-    def _forgive(self, request: Request) -> None:
-        """A mandatory goal that was given up is in the plan again."""
-        same = (request.timeline, request.predicate, request.arguments)
-        for number, left in enumerate(self.given_up):
-            if (left.timeline, left.predicate, left.arguments) == same:
-                del self.given_up[number]
-                break
+                self.given_up.pop(goal.request.number, None)
 
     def reopen(self) -> bool:
         """Let the planner look again at goals that it rejected: there may be room now."""
@@ -290,7 +288,11 @@ class Goals:
     def open_goals(self) -> list[OpenGoal]:
         """Mandatory goals that were refused, or that have not run to their end by now."""
         live = [self._live_goal(goal) for goal in self.live() if goal.request.is_mandatory and not goal.is_rejected]
-        return self.given_up + live + [_open_goal(request) for request in self.waiting if request.is_mandatory]
+        return (
+            list(self.given_up.values())
+            + live
+            + [_open_goal(request) for request in self.waiting if request.is_mandatory]
+        )
 
     def _live_goal(self, goal: Goal) -> OpenGoal:
         """A goal that is planned or runs; if a repair came while it ran, that may have cut it loose."""

@@ -6,16 +6,20 @@ from runtime.constraints.engine cimport Engine
 from runtime.executive.workbench cimport Workbench
 from runtime.plan.store.plan cimport Plan
 
-cdef long long END, NONE, ROLE_TOKEN, SPAN_CLOCK, SPAN_EXECUTIVE, SUPPORT_EDGE, SUPPORT_RESTRICTION
+cdef long long END, INFINITY, NONE, ROLE_TOKEN, SPAN_CLOCK, SPAN_EXECUTIVE, SUPPORT_EDGE, SUPPORT_RESTRICTION
 
 
+@cython.locals(ends=list, start="long long")
 cpdef bint is_blocked(Workbench bench, long long t, long long current, long long tick) except -1
+
+@cython.locals(engine=Engine, free=double, start="long long", v="long long")
+cpdef double free_at(Workbench bench, long long t, long long current, long long tick) except? -1.0
 
 @cython.locals(engine=Engine, mark="long long", may_wait=bint)
 cpdef bint is_tied(Workbench bench, long long end, long long start) except -1
 
 @cython.locals(e="long long", ends=list, engine=Engine, first="long long", i="long long", met=SparseSet, v="long long")
-cpdef bint _follows_awaited(Workbench bench, long long t, long long current, long long tick) except -1
+cpdef list _awaited_ends(Workbench bench, long long t, long long current, long long tick)
 
 @cython.locals(_="long long", engine=Engine, is_own=bint, plan=Plan, support="long long", v="long long")
 cpdef bint _is_held_back(Workbench bench, long long t, long long tick) except -1

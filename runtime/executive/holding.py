@@ -4,7 +4,7 @@ from compiler.program import END
 from runtime.constraints.domains.tags import SUPPORT_EDGE, SUPPORT_RESTRICTION
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE
 from runtime.executive.workbench import Workbench
-from runtime.plan.tags import NONE, ROLE_TOKEN
+from runtime.plan.tags import INFINITY, NONE, ROLE_TOKEN
 
 
 def is_blocked(bench: Workbench, t: int, current: int, tick: int) -> bool:
@@ -13,7 +13,23 @@ def is_blocked(bench: Workbench, t: int, current: int, tick: int) -> bool:
     `current`, the token that holds on the timeline of `t` now, does not block (NONE: it does): it ends when `t`
     begins. Nor does what this reactor may end itself, nor an end that `t` cannot wait for, as it must begin with it.
     """
-    return _follows_awaited(bench, t, current, tick) or _is_held_back(bench, t, tick)
+    ends, start = _awaited_ends(bench, t, current, tick), bench.start(t)
+    while ends and is_tied(bench, ends[len(ends) - 1], start):
+        ends.pop()
+    return len(ends) > 0 or _is_held_back(bench, t, tick)
+
+
+def free_at(bench: Workbench, t: int, current: int, tick: int) -> float:
+    """The first tick at which nothing holds `t` back, if nothing happens until then; `INFINITY` if time frees it never.
+
+    The end that it waits for comes nearer to the latest start of `t` by no more than one tick a tick; where both are
+    the same, `t` cannot wait for it any more.
+    """
+    engine, start, free = bench.engine, bench.start(t), float(tick)
+    for v in _awaited_ends(bench, t, current, tick):
+        if not is_tied(bench, v, start):
+            free = max(free, tick + engine.upper(start) - engine.lower(v))
+    return INFINITY if _is_held_back(bench, t, tick) else free
 
 
 def is_tied(bench: Workbench, end: int, start: int) -> bool:
@@ -27,8 +43,8 @@ def is_tied(bench: Workbench, end: int, start: int) -> bool:
     return not may_wait
 
 
-def _follows_awaited(bench: Workbench, t: int, current: int, tick: int) -> bool:
-    """Whether edges demand that `t` begins after a token of another reactor has ended."""
+def _awaited_ends(bench: Workbench, t: int, current: int, tick: int) -> list[int]:
+    """The ends of tokens of other reactors after which edges demand that `t` begins."""
     engine, met = bench.engine, bench.met
     first = bench.start(t)
     met.empty(engine.variables)
@@ -45,9 +61,7 @@ def _follows_awaited(bench: Workbench, t: int, current: int, tick: int) -> bool:
                 met.add(v)
             e = engine.out_next[e]
         i += 1
-    while ends and is_tied(bench, ends[len(ends) - 1], first):
-        ends.pop()
-    return len(ends) > 0
+    return ends
 
 
 def _is_held_back(bench: Workbench, t: int, tick: int) -> bool:

@@ -129,9 +129,7 @@ class PlanReactor(TeleoReactor):
                 if is_due and token != NOTHING and not is_blocked(bench, token, line.current, tick):
                     soonest = min(soonest, bench.lower(bench.start(token)))
             else:
-                token = self.dispatch.next_request(line)
-                if token != NOTHING and not is_blocked(bench, token, line.current, tick):
-                    soonest = min(soonest, self.dispatch.due_time(line, token, tick))
+                soonest = min(soonest, self.dispatch.next_due(line, tick))
         for token in bench.undecided():
             soonest = min(soonest, bench.upper(bench.start(token)))
         for token in bench.undecided() + bench.unordered():

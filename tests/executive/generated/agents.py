@@ -1,0 +1,231 @@
+"""Random agents: reactors in a random graph, written down as models, a mission file and an agent file of T-REX."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+Bounds = tuple[int, int]
+Kind = Literal["script", "counter", "mirror", "command", "task"]
+
+
+@dataclass(frozen=True, slots=True)
+class Child:
+    """What a task asks of a timeline: a relation, its value beside the task's own, and times, as text of the model."""
+
+    line: "Line"
+    relation: Literal["contains", "meets", "met_by", "follows"]
+    plus: int = 0
+    also: str = ""
+    before: "Child | None" = None  # comes first on the same timeline
+
+    def text(self, name: str) -> str:
+        """The statements of a rule."""
+        said = f"{self.line.class_name}.Do {name}"
+        if self.relation == "follows":
+            said = f"any({said}); end + 2 <= {name}.start; {name}.start <= end + 9;"
+        else:
+            said = f"{self.relation}({said});"
+        said += f" {name}.n == n + {self.plus}; {name}.start >= 1; {self.also.format(name)}"
+        if self.before is not None:
+            said = f"{self.before.text(name + '0')} {said} {name}0 before {name};"
+        return said
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A timeline: what kind of thing it is, and what may be told about it beforehand."""
+
+    name: str
+    kind: Kind
+    steps: tuple[int, ...] = ()  # of a script: how long each lasts; of a counter: one length
+    breaks: bool = False  # the last step of a script cannot be followed by anything
+    extra: int = 1  # a command lasts n + extra
+    rest: int = 0  # and at least so long nothing after it
+    most: int | None = None  # the largest n that it carries out
+    lasts: tuple[int, int | None] = (1, None)  # a task
+    children: tuple[Child, ...] = ()
+    within: "Line | None" = None  # a script: the task lies within its second step
+    copied: "Line | None" = None  # what a mirror shows
+
+    @property
+    def class_name(self) -> str:
+        """The name of its class."""
+        return self.name.capitalize()
+
+    def declaration(self) -> str:
+        """Its class."""
+        if self.kind == "script":
+            names = [f"S{number}" for number in range(len(self.steps) + 1)]
+            predicates, default = " ".join(f"predicate {name} {{ }}" for name in names), "S0"
+        elif self.kind == "counter":
+            predicates, default = "predicate At { int v; }", "At"
+        elif self.kind == "mirror":
+            predicates, default = "predicate Dark { } predicate Lit { int v; }", "Dark"
+        else:
+            predicates, default = "predicate Rest { } predicate Do { int n; }", "Rest"
+        name = self.class_name
+        return f'class {name} extends AgentTimeline {{ {predicates} {name}(Mode m) {{ super(m, "{default}"); }} }}'
+
+    def rules(self) -> Iterator[str]:
+        """What its owner's model says about it."""
+        name = self.class_name
+        if self.kind == "script":
+            for number, length in enumerate(self.steps):
+                yield f"{name}::S{number} {{ duration == {length}; meets(object.S{number + 1} next); }}"
+            if self.breaks:
+                yield f"{name}::S{len(self.steps)} {{ start <= 0; }}"
+        elif self.kind == "counter":
+            yield f"{name}::At {{ duration == {self.steps[0]}; meets(object.At next); next.v == v + 1; }}"
+        elif self.kind == "mirror":
+            assert self.copied is not None
+            when, value = ("At", "v") if self.copied.kind == "counter" else ("S1", "7")
+            yield f"{self.copied.class_name}::{when} {{ equals({name}.Lit m); m.v == {value}; }}"
+        elif self.kind == "command":
+            most = f" n <= {self.most};" if self.most is not None else ""
+            yield f"{name}::Do {{ duration == n + {self.extra};{most} }}"
+            if self.rest:
+                yield f"{name}::Rest {{ duration >= {self.rest}; }}"
+        else:
+            lasts = f"duration >= {self.lasts[0]};"
+            if self.lasts[1] is not None:
+                lasts += f" duration <= {self.lasts[1]};"
+            inside = f" contained_by({self.within.class_name}.S1 w);" if self.within is not None else ""
+            asked = " ".join(child.text(f"c{number}") for number, child in enumerate(self.children))
+            yield f"{name}::Do {{ {lasts}{inside} {asked} }}"
+
+    def fact(self) -> str:
+        """How it begins, if something must be said."""
+        if self.kind != "counter":
+            return ""
+        return f"fact({self.name}.At {self.name}0); {self.name}0.start == 0; eq({self.name}0.v, 0);"
+
+    def used(self) -> Iterator["Line"]:
+        """The timelines of which its rules speak."""
+        yield from (child.line for child in self.children)
+        yield from (line for line in (self.within, self.copied) if line is not None)
+
+
+@dataclass(slots=True)
+class Reactor:
+    """A reactor and its timelines."""
+
+    name: str
+    latency: int
+    lookahead: int
+    lines: list[Line] = field(default_factory=list)
+    max_steps: int | None = None
+    forbids_failed: bool = False  # its model has no room for a timeline that failed
+
+    def external(self) -> list[Line]:
+        """The timelines that it uses, once each."""
+        own = set(self.lines)
+        return [line for line in dict.fromkeys(line for mine in self.lines for line in mine.used()) if line not in own]
+
+    def observed(self) -> list[Line]:
+        """Those of them that it asks for nothing."""
+        return [line for line in self.external() if line.kind in ("script", "counter", "mirror")]
+
+    def model(self) -> str:
+        """Its model."""
+        external = self.external()
+        text = ['#include "TREX.nddl"', *(line.declaration() for line in [*external, *self.lines])]
+        text += [rule for line in self.lines for rule in line.rules()]
+        if self.forbids_failed:
+            text += [f"{line.class_name}::Failed {{ start <= 0; }}" for line in external]
+        watched = self.observed()
+        for line in external:
+            mode = "Observe" if line in watched else "External"
+            text.append(f"{line.class_name} {line.name} = new {line.class_name}({mode});")
+        text += [f"{line.class_name} {line.name} = new {line.class_name}(Internal);" for line in self.lines]
+        return "\n".join([*text, "close();", *filter(None, (line.fact() for line in self.lines)), ""])
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """A goal of the mission file."""
+
+    line: Line
+    at: int
+    start: Bounds
+    n: int | None
+    is_mandatory: bool = False
+    duration: Bounds | None = None
+    recall: int | None = None
+
+
+@dataclass(slots=True)
+class RandomAgent:
+    """A mission: reactors, goals, and what becomes of who fails."""
+
+    name: str
+    final_tick: int
+    on_failure: str
+    reactors: list[Reactor]
+    goals: list[Goal]
+
+    def owner(self, line: Line) -> Reactor:
+        """Who owns a timeline."""
+        return next(one for one in self.reactors if line in one.lines)
+
+    def mission_file(self) -> str:
+        """The mission file."""
+        text = ["[mission]", f'name = "{self.name}"', f"final_tick = {self.final_tick}"]
+        text.append(f'on_failure = "{self.on_failure}"')
+        for one in self.reactors:
+            text += ["", "[[reactor]]", f'name = "{one.name}"', f'model = "{one.name}.nddl"']
+            text += [f"latency = {one.latency}", f"lookahead = {one.lookahead}"]
+            text.append(f"internal = {[line.name for line in one.lines]}")
+            text.append(f"external = {[line.name for line in one.external()]}")
+            if one.max_steps is not None:
+                text.append(f"max_steps = {one.max_steps}")
+        for goal in self.goals:
+            text += ["", "[[goal]]", f'timeline = "{goal.line.name}"', 'predicate = "Do"', f"at = {goal.at}"]
+            text += [f"mandatory = {str(goal.is_mandatory).lower()}", f"start = {list(goal.start)}"]
+            if goal.duration is not None:
+                text.append(f"duration = {list(goal.duration)}")
+            if goal.recall is not None:
+                text.append(f"recall = {goal.recall}")
+            if goal.n is not None:
+                text += ["[goal.parameters]", f"n = {goal.n}"]
+        return "\n".join([*text, "", "[check]", "missions = 1", "seed = 1", ""])
+
+    def agent_file(self) -> str | None:
+        """The same as an agent file of T-REX; None if that has no words for it."""
+        if self.on_failure != "abort_agent" or any(goal.recall is not None for goal in self.goals):
+            return None
+        text = [f'<Agent name="{self.name}" finalTick="{self.final_tick}">', '  <StepClock steps="50"/>']
+        for one in self.reactors:
+            steps = f' maxSteps="{one.max_steps}"' if one.max_steps is not None else ""
+            text.append(
+                f'  <EuropaReactor name="{one.name}" latency="{one.latency}" lookahead="{one.lookahead}"'
+                f' model="{one.name}.nddl"{steps}>'
+            )
+            text += [f'    <Internal name="{line.name}"/>' for line in one.lines]
+            watched = one.observed()
+            for line in one.external():
+                goals = ' goals="false"' if line in watched else ""
+                text.append(f'    <External name="{line.name}"{goals}/>')
+            text.append("  </EuropaReactor>")
+        for goal in self.goals:
+            mandatory = ' mandatory="true"' if goal.is_mandatory else ""
+            text.append(f'  <Goal on="{goal.line.name}" pred="Do" at="{goal.at}"{mandatory}>')
+            text.append(_variable("start", f'min="{goal.start[0]}" max="{goal.start[1]}"'))
+            if goal.duration is not None:
+                text.append(_variable("duration", f'min="{goal.duration[0]}" max="{goal.duration[1]}"'))
+            if goal.n is not None:
+                text.append(_variable("n", f'value="{goal.n}"'))
+            text.append("  </Goal>")
+        return "\n".join([*text, "</Agent>", ""])
+
+    def write(self, folder: Path) -> Path:
+        """Write its models and its mission file into a folder; the mission file."""
+        for one in self.reactors:
+            (folder / f"{one.name}.nddl").write_text(one.model())
+        file = folder / "mission.toml"
+        file.write_text(self.mission_file())
+        return file
+
+
+def _variable(name: str, domain: str) -> str:
+    return f'    <Variable name="{name}"><int {domain}/></Variable>'

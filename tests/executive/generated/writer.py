@@ -1,0 +1,125 @@
+"""Draw an agent from a seed: what its reactors own, what they ask of each other, what goes wrong, what is asked."""
+
+import random
+from dataclasses import dataclass, field
+from typing import Literal
+
+from tests.executive.generated.agents import Child, Goal, Line, RandomAgent, Reactor
+
+RELATIONS: tuple[Literal["contains", "meets", "met_by", "follows"], ...] = (
+    "contains",
+    "contains",
+    "contains",
+    "meets",
+    "met_by",
+    "follows",
+)
+
+
+@dataclass(slots=True)
+class Writer:
+    """Writes one agent."""
+
+    chance: random.Random
+    count: int = 0
+    may_fail: bool = True
+    reactors: list[Reactor] = field(default_factory=list)
+
+    def name(self, start: str) -> str:
+        """A new name."""
+        self.count += 1
+        return f"{start}{self.count}"
+
+    def happens(self, share: float) -> bool:
+        """Whether something of this probability does."""
+        return self.chance.random() < share
+
+    def simulator(self) -> Reactor:
+        """A reactor that looks one tick ahead: commands, and what happens by itself."""
+        chance = self.chance
+        one = Reactor(self.name("sim"), chance.choice((0, 0, 0, 1, 3)), 1)
+        for _ in range(chance.randint(1, 2)):
+            late = chance.choice((0, 0, 0, 4, 12))
+            most = chance.choice((None, None, None, 2))
+            one.lines.append(Line(self.name("arm"), "command", extra=chance.randint(0, 5), rest=late, most=most))
+        if self.happens(0.6):
+            steps = tuple(chance.randint(1, 14) for _ in range(chance.randint(2, 4)))
+            breaks = self.may_fail and self.happens(0.25)
+            one.lines.append(Line(self.name("src"), "script", steps, breaks))
+        if self.happens(0.3):
+            one.lines.append(Line(self.name("count"), "counter", (chance.randint(1, 9),)))
+        if self.happens(0.08):
+            one.lookahead = 0
+        chance.shuffle(one.lines)
+        return one
+
+    def planner(self) -> Reactor:
+        """A reactor that plans tasks over the timelines there are."""
+        chance = self.chance
+        one = Reactor(self.name("plan"), chance.choice((0, 1, 1, 2, 5)), chance.choice((2, 5, 20, 60, 200)))
+        world = [line for other in self.reactors for line in other.lines]
+        able = [line for line in world if line.kind in ("command", "task")]
+        scripts = [line for line in world if line.kind == "script"]
+        seen = [line for line in world if line.kind in ("script", "counter")]
+        for _ in range(chance.randint(1, 2)):
+            children = tuple(self.child(able) for _ in range(chance.choice((0, 1, 1, 1, 2))))
+            least = chance.randint(1, 8)
+            most = chance.choice((None, least, least + 6, least + 15, least + 15))
+            if most is None and not children:
+                most = least + 10
+            within = chance.choice(scripts) if scripts and self.happens(0.15) else None
+            one.lines.append(Line(self.name("task"), "task", lasts=(least, most), children=children, within=within))
+        if seen and self.happens(0.5):
+            one.lines.append(Line(self.name("lamp"), "mirror", copied=chance.choice(seen)))
+        if self.may_fail and self.happens(0.06):
+            one.max_steps = chance.choice((1, 3, 8))
+        one.forbids_failed = self.happens(0.3)
+        return one
+
+    def child(self, able: list[Line]) -> Child:
+        """What a task asks of another timeline."""
+        chance = self.chance
+        line, relation = chance.choice(able), chance.choice(RELATIONS)
+        also = ""
+        if relation == "contains":
+            also = chance.choice(("", "", "{0}.start == start + 2;", "{0}.end == end;", "{0}.start <= start + 4;"))
+        before = Child(line, "contains", 0) if relation == "contains" and self.happens(0.2) else None
+        return Child(line, relation, chance.choice((0, 0, 1)), also, before)
+
+    def goal(self, lines: list[Line], final_tick: int) -> Goal:
+        """Something that is asked for at some tick."""
+        chance = self.chance
+        line = chance.choice(lines)
+        at = chance.choice((0, 0, chance.randint(0, final_tick - 12)))
+        first = at + chance.randint(0 if self.happens(0.2) else 1, 25)
+        first = min(first, final_tick - 2)
+        last = min(first + chance.choice((0, 0, 4, 15, 60)), final_tick)
+        if last <= at:
+            last = at + 1
+        duration = None
+        if self.happens(0.15):
+            shortest = chance.randint(1, 8)
+            duration = (shortest, shortest + chance.randint(0, 6))
+        recall = at + chance.randint(1, 25) if self.happens(0.2) else None
+        if recall is not None and recall >= final_tick:
+            recall = None
+        n = None if self.happens(0.06) else chance.randint(1, 4)
+        return Goal(line, at, (first, last), n, self.happens(0.35), duration, recall)
+
+
+def random_agent(seed: int, plain: bool = False) -> RandomAgent:
+    """The agent of a seed; a plain one can be written as an agent file of T-REX too."""
+    chance = random.Random(f"agent {seed}")
+    writer = Writer(chance)
+    writer.reactors += [writer.simulator() for _ in range(chance.choice((1, 1, 2)))]
+    writer.reactors += [writer.planner() for _ in range(chance.choice((1, 1, 2, 2)))]
+    final_tick = chance.choice((40, 60, 90))
+    takers = [one for one in writer.reactors if one.lookahead > 0]
+    tops = [line for one in takers for line in one.lines if line.kind == "task"]
+    arms = [line for one in takers for line in one.lines if line.kind == "command"]
+    goals = [writer.goal(tops * 3 + arms, final_tick) for _ in range(chance.randint(1, 5))]
+    on_failure = "abort_agent" if plain else chance.choice(("abort_agent", "kill_reactor", "kill_reactor"))
+    if plain:
+        goals = [Goal(g.line, g.at, g.start, g.n, g.is_mandatory, g.duration) for g in goals]
+    chance.shuffle(writer.reactors)
+    return RandomAgent(f"random{seed}", final_tick, on_failure, writer.reactors, goals)

@@ -1,0 +1,41 @@
+"""Random agents fly as the specification has it, in every way there is; the oracle reads nothing but the trace."""
+
+from pathlib import Path
+
+import pytest
+
+from runtime.executive.configuration import GoalConfiguration
+from runtime.executive.mission import run_mission
+from tests.executive.flying import fly, open_goals, planner
+from tests.executive.generated.campaign import faults_of_seed
+from tests.executive.generated.flights import lines_of, loaded
+from tests.executive.generated.oracle import Oracle
+from tests.executive.generated.writer import random_agent
+
+# Agents that once flew wrongly: an end that could not be outwaited, two goals alike, a recall before its time.
+MENDED = (56, 75, 456)
+TASK = (
+    'class Task extends AgentTimeline { predicate Idle { } predicate Do { int n; } Task(Mode m) { super(m, "Idle"); } }'
+    " Task::Do { duration == 5; n <= 3; } Task task = new Task(Internal); close();"
+)
+
+
+@pytest.mark.parametrize("seed", [*range(12), *MENDED])
+def test_a_random_agent_flies_as_it_must(seed: int) -> None:
+    assert faults_of_seed(seed)[1] == []
+
+
+def test_the_oracle_sees_what_is_told_twice(tmp_path: Path) -> None:
+    agent = random_agent(0, plain=True)
+    lines = lines_of(run_mission(*loaded(agent.write(tmp_path)), 1))
+    for place in range(len(lines)):
+        if lines[place]["kind"] == "observation":
+            oracle = Oracle(agent, [*lines[: place + 1], lines[place], *lines[place + 1 :]])
+            oracle.read()
+            assert any("two observations" in one for one in oracle.wrong)
+
+
+def test_a_mandatory_goal_is_open_that_was_recalled_before_it_was_due() -> None:
+    goal = GoalConfiguration("task", "Do", 0, True, start=(30, 30), parameters=(("n", 1),), recall=5)
+    outcome = fly(planner("plan", TASK, "task", lookahead=2), until=40, goals=(goal,))
+    assert len(open_goals(outcome)) == 1
