@@ -42,7 +42,9 @@ def test_what_a_loop_asked_for_is_told_apart_when_a_repair_has_forgotten_some_of
     right, wrong = (f"    {relation}(Door.Open first);" for relation in ("contains", "met_by"))
     assert right in planner.read_text()
     planner.write_text(planner.read_text().replace(right, wrong))
-    agent = load_models(read_mission(folder / "mission.toml")[0]).agent
+    mission, _ = read_mission(folder / "mission.toml")
+    assert mission is not None
+    agent = load_models(mission).agent
     programs = programs_of(agent)
     outcome, record = record_mission(agent, programs, 0)
     assert any(one.fate == "cut" for each in record.reactors for one in each.tokens)
