@@ -215,9 +215,11 @@ class Goals:
                 goal.failed_starts += 1
 
     def give_up_failed_starts(self, tick: int) -> None:
-        """Give up goals that could not begin, and could not when they were asked for once more."""
+        """Give up goals that could not begin, and could not when they were asked for once more; what has begun stays."""
+        bench = self.bench
         for goal in self.live():
-            if goal.failed_starts > 1 and self.bench.is_alive(goal.token, goal.token_key):
+            is_meant = goal.failed_starts > 1 and bench.is_alive(goal.token, goal.token_key)
+            if is_meant and bench.is_waiting(bench.stands_for(goal.token), tick):
                 goal.is_closed = True
                 self._drop(goal, ReasonKind.REJECTED, tick)
                 self.bench.remove([goal.token])

@@ -13,7 +13,7 @@ from tests.executive.generated.oracle import Oracle
 from tests.executive.generated.writer import random_agent
 
 # Agents that once flew wrongly: an end that could not be outwaited, two goals alike, a recall before its time.
-MENDED = (56, 75, 456)
+MENDED = (56, 75, 201, 456)
 TASK = (
     'class Task extends AgentTimeline { predicate Idle { } predicate Do { int n; } Task(Mode m) { super(m, "Idle"); } }'
     " Task::Do { duration == 5; n <= 3; } Task task = new Task(Internal); close();"
