@@ -215,7 +215,7 @@ class Goals:
                 goal.failed_starts += 1
 
     def give_up_failed_starts(self, tick: int) -> None:
-        """Give up goals that could not begin, and could not when they were asked for once more; what has begun stays."""
+        """Give up goals that could not begin, and could not when asked for once more; what has begun stays."""
         bench = self.bench
         for goal in self.live():
             is_meant = goal.failed_starts > 1 and bench.is_alive(goal.token, goal.token_key)
