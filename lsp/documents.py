@@ -89,6 +89,8 @@ class Documents:
 
     def refresh(self) -> list[Publication]:
         """Files may have changed on the disk."""
+        for project in self._projects.values():
+            project.look_again()
         return self._follow({member for project in self._projects.values() for member in project.members}, None)
 
     def configure(self, settings: ServerSettings) -> list[Publication]:

@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from lsp.occurrences import NameIndex, NameIndexer
-from lsp.roots import own_parts
 from lsp.uris import key_of
 from nddl_lang.analysis import Analyser, Analysis
 from nddl_lang.lint.configuration import find_configuration, read_configuration
@@ -18,6 +17,7 @@ from nddl_lang.syntax.includes import load_module_graph
 from nddl_lang.syntax.incremental import Incremental
 from nddl_lang.syntax.parser import Parse
 from nddl_lang.syntax.placement import CLASS, TOP
+from nddl_lang.syntax.roots import parts_of
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source
 
@@ -68,12 +68,14 @@ class Project:
         self.key = key
         self._settings = settings
         self._configuration, self._gaps = _configuration(Path(key), settings)
+        self._directories = (*map(Path, settings.directories), *self._configuration.directories)
         self._analyser = Analyser(self._configuration.callables)
         self._linter = Linter()
         self._indexer = NameIndexer()
         self._kept: dict[_Place, tuple[Incremental, Parse]] = {}
         self._used: dict[_Place, tuple[Incremental, Parse]] = {}
         self._snapshot: Snapshot | None = None
+        self._parts: frozenset[Path] | None = None
 
     @property
     def snapshot(self) -> Snapshot:
@@ -95,7 +97,7 @@ class Project:
         self._used = {}
         loaded = load_module_graph(
             Source(name, text),
-            (*self._settings.directories, *self._configuration.directories),
+            self._directories,
             self._settings.dialect or self._configuration.dialect,
             open_text=open_text,
             parse_text=self._parse,
@@ -103,13 +105,24 @@ class Project:
         self._kept, self._used = self._used, {}
         parses = {key_of(loaded.paths[parse.source]): parse for parse in loaded.parses}
         parses.pop(self.key, None)
-        linter.judged = own_parts(self.key, (self.key, *parses)) if parses else frozenset()
+        linter.judged = self._own_parts()
         analysis = analyser.analyse(loaded)
         found = tuple(self._configuration.choose((*self._gaps, *linter.lint(analysis))))
         parses = {self.key: loaded.parses[0], **parses}
         keys = {parse.source: key for key, parse in parses.items()}
         self._snapshot = Snapshot(analysis, found, parses, indexer.index(analysis), keys)
         self._analyser, self._linter, self._indexer = analyser, linter, indexer
+
+    def look_again(self) -> None:
+        """Files may have changed on the disk, also such as are none of its own."""
+        self._parts = None
+
+    def _own_parts(self) -> frozenset[Path]:
+        """The files that the model includes and no other one beside it, as they are on the disk."""
+        if self._parts is None:
+            path = Path(self.key)
+            self._parts = parts_of([path], self._directories) if path.is_absolute() else frozenset()
+        return self._parts
 
     def _parse(self, path: Path, source: Source, dialect: Dialect, is_in_class: bool) -> Parse:
         place = (str(path), dialect, is_in_class)

@@ -41,24 +41,6 @@ def all_roots(key: str, folders: Iterable[Path]) -> list[Path]:
     return sorted(_roots(key, files.values()))
 
 
-def own_parts(key: str, members: Iterable[str]) -> frozenset[Path]:
-    """Those of `members`, the keys of a model's files, that no model beside them includes but the one at `key`.
-
-    Only files in the folder of that model, or below it: who else uses others is not known.
-    """
-    own = set(members)
-    beside = {key_of(file): file for folder in {Path(each).parent for each in own} for file in _neighbours(folder)}
-    reached: set[str] = set()
-    pending = [each for each in beside if each not in own]
-    while pending:
-        at = pending.pop()
-        if at not in reached:
-            reached.add(at)
-            pending += _included(beside.get(at) or Path(at))
-    folder = folder_of(key)
-    return frozenset(path for each in own - reached - {key} if folder in (path := Path(each)).parents)
-
-
 def models_below(folder: Path) -> Iterator[Path]:
     """The models in `folder` and the folders below it, hidden ones left out; not more than an editor can bear."""
     return files_below(folder, _SUFFIX)

@@ -61,16 +61,23 @@ def _reached(files: Sequence[Path], included: Mapping[Path, Sequence[Path]]) -> 
 def _included(file: Path, directories: Sequence[Path]) -> list[Path]:
     """The files that a file includes itself, resolved: of each name the first that exists."""
     found: list[Path] = []
-    if not file.is_file():
+    if not _is_file(file):
         return found  # what comes through a pipe can be read only once
     for name in _INCLUDE.findall(_text(file)):
         places = (place / name for place in (file.parent, *directories) if "\0" not in name)
-        target = next((real_path(path) for path in places if path.is_file()), None)
+        target = next((real_path(path) for path in places if _is_file(path)), None)
         if target is None and "\0" not in name and (meant := model_meant(name, file.parent)):
             target = real_path(file.parent / meant)  # a misspelt include makes no model of its own of what was meant
         if target is not None and target != real_path(file):
             found.append(target)
     return found
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):  # a name that no file can have
+        return False
 
 
 def _text(file: Path) -> str:

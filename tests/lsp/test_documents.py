@@ -46,6 +46,16 @@ def test_what_a_model_does_not_use_of_a_part_is_told_if_nothing_else_includes_it
     assert codes(Documents().open(part, 1, base))["base.nddl"] == []
 
 
+def test_that_another_model_has_come_to_include_a_part_is_seen_when_something_is_saved(tmp_path: Path) -> None:
+    base = "enum Hue { RED, GREEN, BLUE }\nclass C extends Timeline { predicate p { Hue hue; } }\n"
+    main = '#include "base.nddl"\nC::p { if (hue == RED) { hue != BLUE; } }\nC c = new C();\nclose();\ngoal(c.p one);\n'
+    part, _ = uris(tmp_path, base=base, main=main)
+    documents = Documents()
+    documents.open(part, 1, base)
+    uris(tmp_path, other=main.replace("BLUE", "GREEN"))
+    assert codes(documents.save(part))["base.nddl"] == []
+
+
 def test_a_part_that_nothing_includes_any_more_stands_by_itself(tmp_path: Path) -> None:
     part, main, _ = uris(tmp_path, part=PART, main=MAIN, base=BASE)
     documents = Documents()

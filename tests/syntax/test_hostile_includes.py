@@ -8,6 +8,7 @@ import pytest
 from nddl_lang.lint.check import Checker
 from nddl_lang.lint.settings import Settings
 from nddl_lang.syntax.includes import load_module_graph
+from nddl_lang.syntax.roots import parts_of, roots_among
 from nddl_lang.text import read
 from nddl_lang.text.read import real_path
 
@@ -62,3 +63,12 @@ def test_one_file_that_cannot_be_read_leaves_the_others_to_be_checked(tmp_path: 
     found = [each.code.id for name in ("loop.nddl", "a.nddl") for each in checker.check(tmp_path / name, Settings())]
     assert found[0] == "NDDL193"
     assert "NDDL201" in found
+
+
+def test_a_name_that_no_file_can_have_does_not_hide_the_other_models(tmp_path: Path) -> None:
+    texts = {"long": f'#include "{"x" * 5000}"\n', "whole": '#include "part.nddl"\n', "part": "int a;\n"}
+    long, whole, part = (tmp_path / f"{name}.nddl" for name in texts)
+    for name, text in texts.items():
+        (tmp_path / f"{name}.nddl").write_text(text, encoding="utf-8")
+    assert roots_among([long, part, whole]) == [long, whole]
+    assert parts_of([whole]) == {real_path(part)}
