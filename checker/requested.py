@@ -47,6 +47,7 @@ def lines_that_ask(
         return ()
     found: dict[InfluenceLine, None] = {}
     first = (variable.token.predicate, variable.name)
+    numbers = {reactor: dict(_numbers(program)) for reactor, program in programs.items()}
     done: set[tuple[str, str]] = set()
     waiting = [first]
     while waiting:
@@ -57,7 +58,8 @@ def lines_that_ask(
         for reactor, program in programs.items():
             for rule in program.rules if wanted != first or reactor != variable.reactor else ():
                 if rule.predicate.rpartition(".")[2] in held:
-                    lines, behind = _asking(program, rule, wanted, _value(element) if wanted == first else None)
+                    value = _value(element) if wanted == first else None
+                    lines, behind = _asking(program, rule, wanted, numbers[reactor], value)
                     found |= dict.fromkeys(lines)
                     waiting += [(rule.predicate, one) for one in behind]
     return tuple(
@@ -78,7 +80,11 @@ def _value(element: ConflictElement) -> float | None:
 
 
 def _asking(
-    program: Program, rule: RuleCode, wanted: tuple[str, str], value: float | None
+    program: Program,
+    rule: RuleCode,
+    wanted: tuple[str, str],
+    numbers: Mapping[Operand, float],
+    value: float | None,
 ) -> tuple[list[InfluenceLine], list[str]]:
     """The lines of a rule that say what a parameter of a child is, and the own parameters that this comes from."""
     predicate, name = wanted
@@ -87,7 +93,6 @@ def _asking(
     children = {step.slot for step in body if isinstance(step, Child) and step.predicate == predicate}
     reached: set[Operand] = {TokenVariable(slot, at) for slot in children} if at >= 0 else set()
     posts: list[Post] = []
-    numbers = dict(_numbers(program))
     grows = bool(reached)
     while grows:
         grows = False

@@ -128,7 +128,7 @@ def _after(edit: SmallEdit, site: EditSite) -> str:
     """A line as it is after an edit; empty where nothing is left of it, or the edit is of what it leads to."""
     first, last = edit.begin - site.begin, edit.end - site.begin
     is_inside = 0 <= first <= last <= len(site.text) and edit.new.strip()
-    return _plain(site.text[:first] + edit.new + site.text[last:]) if is_inside else ""
+    return _plain(site.after(edit)) if is_inside else ""
 
 
 def _plain(text: str) -> str:

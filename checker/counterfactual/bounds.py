@@ -43,9 +43,9 @@ class Directions:
 
         As all other objects of its class have them, or the level of a reservoir between the least and the most.
         """
-        before, after = (_made(text) for text in (site.text, _after(edit, site)))
+        before, after = (_made(text) for text in (site.text, site.after(edit)))
         if before is None or after is None or before[1] is after[1]:
-            return _is_in_order(_after(edit, site)) and not _is_in_order(site.text)
+            return _is_in_order(site.after(edit)) and not _is_in_order(site.text)
         counts = self._made[before[0]]
         return counts[before[1]] == 1 and counts[after[1]] > 0
 
@@ -71,11 +71,6 @@ def is_result_moved(edit: SmallEdit, site: EditSite) -> bool:
     name, is_call, _ = site.text.partition("(")
     row = CONSTRAINTS.get(name.strip())
     return bool(is_call) and row is not None and row.result is not None and edit.begin > site.begin
-
-
-def _after(edit: SmallEdit, site: EditSite) -> str:
-    first, last = edit.begin - site.begin, edit.end - site.begin
-    return site.text[:first] + edit.new + site.text[last:]
 
 
 def _made(text: str) -> tuple[str, bool] | None:

@@ -86,8 +86,7 @@ class Mentions:
 
         Half as much where a line then speaks of starts alone, or of ends.
         """
-        first, last = edit.begin - site.begin, edit.end - site.begin
-        new = site.text[:first] + edit.new + site.text[last:]
+        new = site.after(edit)
         gain = float(_is_alike(new) - _is_alike(site.text))
         return gain or 0.5 * (_is_of_one_end(new) - _is_of_one_end(site.text)) * (edit.kind is EditKind.POINT)
 

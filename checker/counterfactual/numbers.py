@@ -16,8 +16,7 @@ def between(edit: SmallEdit, site: EditSite) -> list[SmallEdit]:
     """Where a number changes by more than a doubling or halving, that of the same number and direction."""
     if edit.kind is not EditKind.CONSTANT or octaves(edit) <= 1.0 or float(edit.new) * float(edit.old) <= 0.0:
         return []
-    same = [one for one in site.edits if one.begin == edit.begin and one.kind is EditKind.CONSTANT]
-    return [one for one in same if is_doubling(one) and is_raised(one) == is_raised(edit)]
+    return [one for one in _same_way(edit, site) if is_doubling(one)]
 
 
 def is_step(edit: SmallEdit, site: EditSite) -> bool:
@@ -27,9 +26,14 @@ def is_step(edit: SmallEdit, site: EditSite) -> bool:
 
 def is_farthest(edit: SmallEdit, site: EditSite) -> bool:
     """Whether no edit changes the number more in this direction without a change of its sign."""
-    rivals = (one for one in site.edits if one.begin == edit.begin and one.kind is EditKind.CONSTANT)
-    same = [one for one in rivals if is_raised(one) == is_raised(edit) and float(one.new) * float(one.old) >= 0.0]
+    same = [one for one in _same_way(edit, site) if float(one.new) * float(one.old) >= 0.0]
     return octaves(edit) >= max((octaves(one) for one in same if float(one.new) != 0.0), default=0.0)
+
+
+def _same_way(edit: SmallEdit, site: EditSite) -> list[SmallEdit]:
+    """The edits that give the same number another value, greater or less as this one does."""
+    rivals = site.rivals(edit, EditKind.CONSTANT)
+    return [one for one in rivals if is_raised(one) == is_raised(edit)]
 
 
 def is_raised(edit: SmallEdit) -> bool:

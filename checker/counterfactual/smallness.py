@@ -115,7 +115,7 @@ class Usage:
 
         Of truth values nothing is known.
         """
-        others = {one.new for one in site.edits if one.kind is EditKind.VALUE and one.begin == edit.begin}
+        others = {one.new for one in site.rivals(edit, EditKind.VALUE)}
         is_last = edit.new not in TRUTHS and self.counts[edit.old.rpartition(".")[2]] == 1
         return is_last and all(self.counts[other] for other in others)
 
@@ -290,7 +290,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             neutral = _LATE if edit.new in usage.named or is_set else 0.7
             return 0.5 - 0.6 * fitness if fitness > 0.0 else neutral - fitness
         case EditKind.VALUE:
-            alike = sum(one.kind is EditKind.VALUE and one.begin == edit.begin for one in site.edits)
+            alike = len(site.rivals(edit, EditKind.VALUE))
             return -0.4 + _LATER * usage.passing + _UNUSUAL * math.log(alike)  # one of many is meant less often each
         case EditKind.PREDICATE if edit.old in EVENTS:
             return _SIDE
@@ -360,4 +360,4 @@ def alternatives(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdi
 def is_probe(edit: SmallEdit) -> bool:
     """Whether an edit leaves out a limit or a relation: a value that is not set would fail all the same."""
     is_limit = edit.kind is EditKind.DROPPED_CONSTRAINT and not sets_value(edit.old)
-    return is_limit or (edit.kind is EditKind.RELATION and edit.new == "any")
+    return is_limit or (edit.kind is EditKind.RELATION and edit.new == _LOOSE)

@@ -129,6 +129,14 @@ class EditSite:
         """Whether a place is one of its lines."""
         return file == self.file and self.first <= line <= self.last
 
+    def after(self, edit: SmallEdit) -> str:
+        """Its text after one of its edits."""
+        return self.text[: edit.begin - self.begin] + edit.new + self.text[edit.end - self.begin :]
+
+    def rivals(self, edit: SmallEdit, kind: EditKind) -> list[SmallEdit]:
+        """Its edits of a kind that begin where another one does, that one included if it is of the kind."""
+        return [one for one in self.edits if one.kind is kind and one.begin == edit.begin]
+
 
 def edited(text: str, edit: SmallEdit) -> str:
     """The text after an edit."""
