@@ -15,6 +15,14 @@ _PARTS = {
     "mutate": "mutants",
     "compare": "comparison",
     "study": "study",
+    "certify": "certificate",
+    "controllability": "controllability",
+    "shrink": "shrunk",
+    "store": "damage",
+    "validate": "judgement",
+    "record": "record",
+    "load": "loaded",
+    "plan": "planned",
 }
 SCHEMAS = (*_WHOLE, *_PARTS)
 

@@ -1,6 +1,5 @@
 """`nddlc certify`: prove that no value in the box breaks a mission, or fly one that does."""
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +16,7 @@ from checker.proofs.box import Point
 from checker.proofs.certify import Certainty, Certificate, Certifier
 from checker.proofs.constants import SafeConstant, places_of, safe_constant, with_value
 from checker.proofs.rendering import certificate_data, certificate_lines, constant_lines, place_of
+from nddl_lang.text.values import json_text
 from nddlc.inputs import Unusable, mission_here
 from nddlc.one_mission import prepare
 from nddlc.trust import trust_option
@@ -50,7 +50,7 @@ def command(
     if style == "json":
         data: dict[str, Any] = certificate_data(found, certifier.box, excerpts)
         data["bounds"] = [_bound_data(*each, excerpts) for each in told]
-        click.echo(json.dumps(data, ensure_ascii=False, indent=1))
+        click.echo(json_text(data))
     else:
         lines = certificate_lines(mission.agent.name, found, certifier.box, excerpts)
         for name, safe, places, again in told:

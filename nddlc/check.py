@@ -1,6 +1,5 @@
 """`nddlc check`: fly the missions of a mission file and say what fails and why; or check one model's text."""
 
-import json
 import os
 import sys
 from contextlib import ExitStack, suppress
@@ -39,6 +38,7 @@ from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
 from nddl_lang.text.render import as_dict, render
+from nddl_lang.text.values import json_text
 from nddlc.fitting import say
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, mission_here, readable, write_text
 from nddlc.known import known_callables
@@ -232,7 +232,7 @@ def _tell(diagnostics: tuple[Diagnostic, ...], style: str) -> None:
             click.echo(github_line(one))
         return
     if style not in ("text", "markdown"):
-        click.echo(json.dumps({"diagnostics": [as_dict(one) for one in diagnostics]}, ensure_ascii=False, indent=1))
+        click.echo(json_text({"diagnostics": [as_dict(one) for one in diagnostics]}))
         return
     colour = colours() and style == "text"
     for one in diagnostics:

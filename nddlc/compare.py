@@ -1,6 +1,5 @@
 """`nddlc compare`: two runs of missions with common seeds, such as those of two versions of a model."""
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,7 @@ from checker.rendering import failure_text
 from checker.report.sentences import missions, percent
 from checker.sampling.rendering import number
 from checker.sampling.sampler import RANDOM_POINT, MissionRole
-from nddl_lang.text.values import json_value
+from nddl_lang.text.values import json_text, json_value
 from nddlc.check import STORE
 from nddlc.inputs import Unusable
 
@@ -40,7 +39,7 @@ def command(before: str, after: str, confidence: float, store_path: Path, style:
     if not found.missions:
         raise Unusable("these runs have no mission in common", "fly both with the same --seed and sampler")
     if style == "json":
-        click.echo(json.dumps(_data(found, before, after, confidence), ensure_ascii=False, indent=1))
+        click.echo(json_text(_data(found, before, after, confidence)))
     else:
         click.echo(_text(found, before, after, confidence), nl=False)
     return _WORSE if found.is_worse and found.chance < _SURE else _SAME

@@ -1,6 +1,5 @@
 """`nddlc controllability`: can the plan of a mission be carried out, however long the vehicle takes?"""
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +11,7 @@ from checker.excerpts import Excerpts
 from checker.mission import LARGEST_SEED
 from checker.proofs.rendering import control_data, control_lines
 from checker.proofs.uncertain import plan_networks
+from nddl_lang.text.values import json_text
 from nddlc.certify import certifier_of
 from nddlc.inputs import Unusable, mission_here
 from nddlc.one_mission import prepare
@@ -48,5 +48,5 @@ def command(path: str | None, seed: int | None, style: str, is_trusted: bool) ->
         answers.append(control_data(plan, cycle, excerpts, is_strong=is_strong, is_weak=is_weak))
     if not answers:
         lines.append(f"{mission.agent.name}: no reactor asks another for anything: nothing is uncertain")
-    click.echo(json.dumps(answers, ensure_ascii=False, indent=1) if style == "json" else "\n".join(lines))
+    click.echo(json_text(answers) if style == "json" else "\n".join(lines))
     return 0 if is_controllable else 1

@@ -1,6 +1,5 @@
 """`nddlc explain`: why one mission of a run failed, from the value that was drawn to the line that gave way."""
 
-import json
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -26,6 +25,7 @@ from checker.models import ModelSet, load_models
 from checker.names import mission_name
 from checker.oracle import Verdict
 from checker.pinned import pinned
+from nddl_lang.text.values import json_text
 from nddlc.check import STORE
 from nddlc.fitting import say
 from nddlc.inputs import Unusable, present, readable
@@ -212,7 +212,7 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
     if style == "text":
         say(text)
     else:
-        click.echo(json.dumps(plain, ensure_ascii=False, indent=1))
+        click.echo(json_text(plain))
     return 0
 
 

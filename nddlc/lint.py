@@ -2,7 +2,6 @@
 
 import difflib
 import gc
-import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -21,6 +20,7 @@ from nddl_lang.text.read import read_source
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.sarif import sarif_of
 from nddl_lang.text.source import Span
+from nddl_lang.text.values import json_text
 from nddlc.fitting import say
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, model_paths, models_in, parts_in, write_text
 from nddlc.known import known_callables
@@ -193,7 +193,7 @@ def _mend(checker: Checker, path: Path, settings: Settings, *, only_show: bool, 
 def _tell(found: list[Diagnostic], files: list[str], style: str, mended: int, statistics: bool) -> None:
     match style:
         case "json":
-            click.echo(json.dumps({"files": files, "diagnostics": [as_dict(each) for each in found]}, indent=1))
+            click.echo(json_text({"files": files, "diagnostics": [as_dict(each) for each in found]}))
         case "sarif":
             click.echo(sarif_of(found), nl=False)
         case "junit":

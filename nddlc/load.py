@@ -1,11 +1,11 @@
 """`nddlc load`: execute models and show the tokens and variables that result."""
 
-import json
 from collections.abc import Iterator
 
 import click
 
 from nddl_lang.text.render import render
+from nddl_lang.text.values import json_text
 from nddlc.fitting import columns, say
 from nddlc.inputs import chosen_dialect, colours, configured, model_files, models_only, readable
 from nddlc.trust import library_for, trust_option
@@ -41,7 +41,7 @@ def command(
         plan = loaded.state()
         is_fine = is_fine and plan is not None and plan.is_consistent
         if as_json:
-            click.echo(json.dumps(as_data(loaded, plan), ensure_ascii=False))
+            click.echo(json_text(as_data(loaded, plan), None))
         else:
             say("\n".join([*_page(loaded, plan, len(files) > 1), ""]))
     return int(not is_fine)

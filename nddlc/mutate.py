@@ -1,6 +1,5 @@
 """`nddlc mutate`: make small faults in the models of a mission, fly them, and say which are noticed and which found."""
 
-import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -16,6 +15,7 @@ from checker.mission import LARGEST_SEED, Mission
 from checker.models import load_models
 from checker.names import relative_name
 from checker.yardstick import TOP, Fate, MutantReport, measure, open_flyer, prepare, with_mandatory_goals
+from nddl_lang.text.values import json_text
 from nddlc.inputs import Unusable
 from nddlc.one_mission import prepare as read
 from nddlc.trust import trust_option
@@ -66,7 +66,7 @@ def command(
             if not as_json:
                 click.echo(_line(one, mission))
     if as_json:
-        click.echo(json.dumps(_data(found, mission, seed, bool(ending)), ensure_ascii=False, indent=1))
+        click.echo(json_text(_data(found, mission, seed, bool(ending))))
     else:
         click.echo("\n" + "\n".join(_summary(found)))
     return _INTERRUPTED if ending else 0

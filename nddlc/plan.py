@@ -1,6 +1,5 @@
 """`nddlc plan`: search a plan for a model, and show it, or say why there is none."""
 
-import json
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import redirect_stdout
@@ -11,6 +10,7 @@ import click
 
 from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
+from nddl_lang.text.values import json_text
 from nddlc.cancellation import Clock
 from nddlc.fitting import columns, fitted, say
 from nddlc.goals import goals_of
@@ -153,7 +153,7 @@ def command(
     )
     profiles = level_profiles(database, limits.start)
     if as_json:
-        click.echo(json.dumps(_data(loaded, report, profiles, reasons, before.is_consistent), ensure_ascii=False))
+        click.echo(json_text(_data(loaded, report, profiles, reasons, before.is_consistent), None))
     else:
         _show(loaded, report, profiles, reasons, style)
     if ended == INTERRUPTED:
@@ -165,7 +165,7 @@ def _tell_of_memory(loaded: Loaded, budget: int, steps: int, as_json: bool) -> i
     """Say that the search was stopped; the plan is in no state to be shown."""
     if as_json:
         data = as_data(loaded, None) | {"load": "ok", "solve": {"result": "memory", "steps": steps}}
-        click.echo(json.dumps(data, ensure_ascii=False))
+        click.echo(json_text(data, None))
     else:
         say(f"no plan found yet: stopped after {steps} steps, when {budget} MiB of memory were used up\n")
         click.echo("  help: a rule may ask for ever more tokens, see `nddlc lint`; --max-memory allows more", err=True)
@@ -254,7 +254,7 @@ def _limits(database: PlanDatabase, horizon: tuple[int, int] | None, steps: int 
 
 def _show_refusal(loaded: Loaded, as_json: bool) -> None:
     if as_json:
-        click.echo(json.dumps(as_data(loaded, None), ensure_ascii=False))
+        click.echo(json_text(as_data(loaded, None), None))
         return
     for each in loaded.diagnostics:
         say(f"{render(each, colour=colours())}\n")

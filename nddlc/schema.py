@@ -1,10 +1,9 @@
 """`nddlc schema`: the JSON schema of a file that nddlc reads, or of what a command prints as JSON."""
 
-import json
-
 import click
 
 from checker.schemas import SCHEMAS, schema
+from nddl_lang.text.values import json_text
 
 
 @click.command()
@@ -15,4 +14,4 @@ def command(name: str) -> None:
     `report` is report.json and what `check --format json` prints; where nothing could be flown, that is `lint`. `study`
     is study.json, `study-file` what `study` reads; `trace` is a line of a trace, but for its first.
     """
-    click.echo(json.dumps(schema(name), ensure_ascii=False, indent=1))
+    click.echo(json_text(schema(name)))

@@ -1,6 +1,5 @@
 """`nddlc shrink`: the simplest mission that fails as one of a run did; `promote` shares how it is found and told."""
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ from checker.oracle import Verdict
 from checker.rendering import failure_text
 from checker.sampling.rendering import number
 from checker.shrink import Shrunk
+from nddl_lang.text.values import json_text
 from nddlc.check import STORE
 from nddlc.explain import campaign_of
 from nddlc.inputs import Unusable
@@ -43,7 +43,7 @@ def command(what: str, style: str, store_path: Path, is_trusted: bool) -> int:
     """
     found = shrunk_mission(what, store_path, is_trusted)
     if style == "json":
-        click.echo(json.dumps(_data(found), ensure_ascii=False, indent=1))
+        click.echo(json_text(_data(found)))
     else:
         click.echo("\n".join(shrunk_lines(found)))
     return 0

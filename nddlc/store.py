@@ -1,6 +1,5 @@
 """`nddlc store`: look whether a store of runs is whole, and keep what is whole of a damaged one."""
 
-import json
 from dataclasses import asdict
 from pathlib import Path
 
@@ -8,6 +7,7 @@ import click
 
 from checker.batch.salvage import StoreDamage, examine, salvage
 from checker.batch.store import StoreError
+from nddl_lang.text.values import json_text
 from nddlc.check import STORE
 from nddlc.inputs import Unusable
 
@@ -61,7 +61,7 @@ def _replace(path: Path, target: Path) -> None:
 
 def _tell(damage: StoreDamage, path: Path, style: str) -> None:
     if style == "json":
-        click.echo(json.dumps({"store": str(path), "is_whole": damage.is_none, **asdict(damage)}, indent=1))
+        click.echo(json_text({"store": str(path), "is_whole": damage.is_none, **asdict(damage)}))
         return
     if damage.is_none:
         click.echo(f"`{path}` is whole: {damage.whole} missions of {damage.runs} runs")

@@ -1,6 +1,5 @@
 """`nddlc validate`: judge a mission, a recorded one, a trace or a plan written by hand against the model."""
 
-import json
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -25,6 +24,7 @@ from compiler.program import Program
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import render
+from nddl_lang.text.values import json_text
 from nddlc.inputs import Unusable, present, readable
 from nddlc.mission_trust import models_of
 from nddlc.trust import trust_option
@@ -92,7 +92,7 @@ def command(
     report, proved = judged.report, _proved(judged) if asks_z3 else None
     if style == "json":
         data = report_data(report) | ({} if proved is None else {"smt": judgement_data(proved)})
-        click.echo(json.dumps(data, indent=1))
+        click.echo(json_text(data))
     else:
         click.echo(report_text(report, advises=plan.suffix != ".toml"))
         if proved is not None:
@@ -119,7 +119,7 @@ def _flown(path: Path, seed: int, target: Path | None, is_trusted: bool) -> _Jud
     agent, programs = _loaded(path, is_trusted)
     outcome, record = record_mission(agent, programs, seed)
     if target is not None:
-        text = json.dumps({"mission": str(path), "seed": seed, **record_data(record)}, indent=1)
+        text = json_text({"mission": str(path), "seed": seed, **record_data(record)})
         draft = target.with_name(target.name + ".part")
         draft.write_text(text + "\n", encoding="utf-8")
         draft.replace(target)

@@ -3,7 +3,6 @@
 No wall times, no machine names, keys in a fixed order, paths relative to the mission file. docs/report.md describes it.
 """
 
-import json
 import math
 from typing import Any
 
@@ -21,6 +20,7 @@ from checker.report.coverage import coverage_data
 from checker.report.losses import mission_losses, tally_data
 from checker.report.sentences import verdict_word
 from checker.tally import Tally
+from nddl_lang.text.values import json_text
 from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.rendering import element_text
 
@@ -32,7 +32,7 @@ def json_report(findings: Findings, excerpts: Excerpts, coverage: Coverage | Non
     data = _report_data(findings, excerpts)
     if coverage is not None:
         data["coverage"] = coverage_data(coverage)
-    return json.dumps(data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+    return json_text(data) + "\n"
 
 
 def _report_data(findings: Findings, excerpts: Excerpts) -> dict[str, Any]:

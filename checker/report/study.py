@@ -1,6 +1,5 @@
 """The cells of a study in, Figure 12 of the founding paper out: as text, as data, as a picture, as a page."""
 
-import json
 from collections.abc import Sequence
 from html import escape
 from importlib.resources import files
@@ -10,6 +9,7 @@ from checker.report.sentences import percent
 from checker.sampling.rendering import number
 from checker.study.cells import StudyCell, StudyFinding, findings_of
 from checker.study.reading import StudyFile
+from nddl_lang.text.values import json_text
 
 _PANELS = (("(a) drawn once per mission", "inter"), ("(b) redrawn every few ticks", "intra"))
 _COLOURS = {"uniform": "f3", "normal": "f1"}
@@ -99,7 +99,7 @@ def study_data(study: StudyFile, cells: Sequence[StudyCell]) -> str:
         ],
         "found_by": {finding.variant.name: [one.sampling for one in finding.finds] for finding in findings_of(cells)},
     }
-    return json.dumps(data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+    return json_text(data) + "\n"
 
 
 def study_svg(study: StudyFile, cells: Sequence[StudyCell]) -> str:

@@ -1,11 +1,11 @@
 """Results in, a SARIF 2.1.0 log out, for code hosts that show findings at their lines."""
 
-import json
 from collections.abc import Iterable
 from typing import Any
 
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Severity
 from nddl_lang.text.source import Span
+from nddl_lang.text.values import json_text
 
 _SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note", Severity.HINT: "note"}
@@ -16,7 +16,7 @@ def sarif_log(rules: list[dict[str, Any]], results: list[dict[str, Any]]) -> str
     driver = {"name": "nddlc", "rules": rules}
     run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
     document = {"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}
-    return json.dumps(document, ensure_ascii=False, indent=1) + "\n"
+    return json_text(document) + "\n"
 
 
 def sarif_of(diagnostics: Iterable[Diagnostic]) -> str:

@@ -1,4 +1,4 @@
-"""Texts of TOML and JSON in, their values out; what is too deep or too long for the reader is a mistake of the text."""
+"""Texts of TOML and JSON and their values; what is too deep or too long for the reader is a mistake of the text."""
 
 import json
 import re
@@ -37,3 +37,8 @@ def json_value(text: str, parse_constant: Callable[[str], Any] | None = None) ->
         if type(problem) is not ValueError:
             raise
         raise json.JSONDecodeError(_LONG, text, 0) from None
+
+
+def json_text(value: Any, indent: int | None = 1) -> str:
+    """The text of a value, without a line's end; JSON has no infinite numbers, so these raise ValueError."""
+    return json.dumps(value, ensure_ascii=False, indent=indent, allow_nan=False)

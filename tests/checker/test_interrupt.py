@@ -12,11 +12,13 @@ import time
 from pathlib import Path
 
 import pytest
+from jsonschema import Draft202012Validator
 
 from checker.batch.pool import Batch, fly_all
 from checker.batch.worker import Task
 from checker.mission import read_mission
 from checker.oracle import Verdict
+from checker.schemas import schema
 from nddlc.main import run
 from tests.checker.fake_agent import load_signalled
 from tests.checker.test_batch import Taker
@@ -76,6 +78,9 @@ def test_a_signal_ends_a_batch_at_once_and_keeps_what_is_finished(
     assert f"gps: {kept} missions of 5000 (interrupted)" in out
     assert took < 5.0  # one second on a machine with nothing else to do
     assert (tmp_path / ".nddlc" / ".gitignore").read_text() == "*\n"
+    report = json.loads((tmp_path / "nddlc-report/report.json").read_text(encoding="utf-8"))
+    assert (report["verdict"], report["ending"], len(report["missions"])) == ("interrupted", "signal", kept)
+    assert list(Draft202012Validator(schema("report")).iter_errors(report)) == []
 
 
 def test_slow_missions_are_on_disk_within_a_second(tmp_path: Path) -> None:
@@ -203,3 +208,6 @@ def test_a_signal_while_causes_are_sought_leaves_what_was_found(
     assert "interrupted after all missions; left out: causes of fault 1 (in part), the condition of fault 1" in out
     assert "nddlc explain" in out
     assert took < 2.0 + LAG
+    report = json.loads((tmp_path / "nddlc-report/report.json").read_text(encoding="utf-8"))
+    assert report["verdict"] == "interrupted" or report["counts"]["fail"] == 1
+    assert list(Draft202012Validator(schema("report")).iter_errors(report)) == []

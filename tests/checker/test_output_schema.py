@@ -1,7 +1,9 @@
 """What commands print as JSON fits the schemas that are published of it, to the last key."""
 
 import json
+import sqlite3
 from collections.abc import Iterator
+from contextlib import closing
 from dataclasses import replace
 from enum import Enum
 from pathlib import Path
@@ -155,3 +157,66 @@ def test_findings_of_lint_and_of_check_fit(printed: Any) -> None:
 def test_mutants_fit(printed: Any) -> None:
     survey = MODELS / "templates" / "survey" / "mission.toml"
     assert misfits("mutate", printed("mutate", survey, "--limit", "2", "--missions", "3", "--json")) == []
+
+
+CASES = Path("tests/conformance/cases").resolve()
+SURVEY = MODELS / "templates" / "survey" / "mission.toml"
+
+
+@pytest.mark.parametrize("name", ["res_uses_is_an_interval", "res_subclass_of_reservoir", "err_several_syntax_errors"])
+def test_loaded_and_planned_models_fit(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    path = str(CASES / f"{name}.nddl")
+    for command, options in (
+        ("load", ()),
+        ("plan", ("--explain", "--max-steps", "50")),
+        ("plan", ("--max-memory", "1")),
+    ):
+        run([command, path, "--json", *options])
+        (line,) = capsys.readouterr().out.splitlines()
+        assert misfits(command, json.loads(line, parse_constant=pytest.fail)) == []
+
+
+def test_a_search_that_finds_no_plan_fits(printed: Any) -> None:
+    Path("m.nddl").write_text(
+        "class T extends Timeline { predicate P { int n; } }\nT t = new T();\n"
+        "T::P { duration == 60; }\ngoal(T.P a);\ngoal(T.P b);\n"
+        "a.start >= 0; b.start >= 0; a.end <= 100; b.end <= 100; a.n == 1; b.n == 2;\n",
+        encoding="utf-8",
+    )
+    found = printed("plan", "m.nddl", "--horizon", "0", "100", "--explain", "--json", code=1)
+    assert misfits("plan", found) == []
+    assert found["solve"]["is_complete"]
+    assert found["explanation"]
+
+
+def test_proofs_fit(printed: Any) -> None:
+    found = printed("certify", SURVEY, "--bound", "LEG_MAX", "--format", "json", code=1)
+    assert misfits("certify", found) == []
+    assert found["point"]
+    assert found["bounds"][0]["certified"]
+    assert misfits("controllability", printed("controllability", SURVEY, "--format", "json", code=1)) == []
+
+
+def test_judgements_and_records_fit(printed: Any) -> None:
+    found = printed("validate", SURVEY, "--smt", "--record", "right.json", "--format", "json")
+    assert misfits("validate", found) == []
+    record = json.loads(Path("right.json").read_text(encoding="utf-8"))
+    assert misfits("record", record) == []
+    next(one for each in record["reactors"] for one in each["tokens"])["duration"] = 7
+    Path("wrong.json").write_text(json.dumps(record), encoding="utf-8")
+    wrong = printed("validate", "wrong.json", "--smt", "--format", "json", code=1)
+    assert misfits("validate", wrong) == []
+    assert wrong["disagreements"]
+    assert wrong["smt"]["broken"]
+
+
+def test_shrunk_missions_and_stores_fit(printed: Any) -> None:
+    printed("check", SURVEY, "--missions", "15", "--workers", "1", "--flights", "0", "--format", "json", code=1)
+    assert misfits("shrink", printed("shrink", "latest", "--format", "json")) == []
+    store = Path(".nddlc/runs.sqlite")
+    assert misfits("store", printed("store", "check", "--format", "json")) == []
+    with closing(sqlite3.connect(store)) as connection, connection:
+        connection.execute("UPDATE missions SET result = 'x' WHERE number = 3")
+    damaged = printed("store", "check", "--format", "json", code=1)
+    assert misfits("store", damaged) == []
+    assert damaged["missions"]

@@ -87,7 +87,8 @@ def _cell(text: str) -> str:
 
 
 def _roff(text: str) -> str:
-    return text.replace("\\", "\\e").replace("-", "\\-").replace("\n.", "\n\\&.").replace("\n'", "\n\\&'")
+    escaped = text.replace("\\", "\\e").replace("-", "\\-").replace("\n.", "\n\\&.").replace("\n'", "\n\\&'")
+    return escaped.replace("|", "|\\:")
 
 
 def main() -> None:

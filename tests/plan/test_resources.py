@@ -1,11 +1,14 @@
 """Levels of resources: what is refused at once, what is a flaw, and what mends it."""
 
 from itertools import product
+from math import inf
 from random import Random
 
 import pytest
 
 from runtime.plan.database import PlanDatabase
+from runtime.plan.readout.level_profile import level_profiles
+from runtime.plan.readout.open_levels import open_levels
 from runtime.plan.resources.envelope import Envelope
 from tests.plan.models import loaded, prepared, token
 
@@ -184,3 +187,11 @@ def test_why_a_resource_refuses_can_be_asked_in_a_search() -> None:
     database.mark()
     assert not database.activate(token(database, "g"))
     assert any(cause.owner == token(database, "g") for cause in database.engine.explain())
+
+
+def test_a_use_of_unbounded_amount_gives_all_of_it_back() -> None:
+    plan = loaded("Reusable r = new Reusable(5.0, 0.0); close(); fact(Reusable.uses a); a.start = 3; a.end = 7;")
+    assert level_profiles(plan, 0)["r"].steps == ((0, 5.0, 5.0), (3, -inf, 5.0), (7, 5.0, 5.0))
+    plan = loaded("Reusable r = new Reusable(5.0, 0.0); close(); fact(Reusable.uses a);")
+    (told,) = open_levels(plan)
+    assert told.text() == "the level of r may fall to -inf at any tick (limit 0)"

@@ -1,10 +1,11 @@
 """Profiles: the level of each resource over time, each of its uses as early as it can be."""
 
 from dataclasses import dataclass
-from math import inf
+from math import copysign, inf, isinf
 
 from runtime.constraints.domains.tags import HALF_INF
 from runtime.plan.database import PlanDatabase
+from runtime.plan.readout.state import bound_data
 from runtime.plan.tags import INITIAL, LIMITS, MAXIMUM, MINIMUM
 
 
@@ -17,9 +18,9 @@ class LevelProfile:
     steps: tuple[tuple[int, float, float], ...]  # the first one is how it begins
 
     def as_data(self) -> dict[str, object]:
-        """The same for programs; null where there is no limit."""
-        limits = [None if abs(each) == inf else each for each in (self.lower, self.upper)]
-        return {"limits": limits, "steps": [list(step) for step in self.steps]}
+        """The same for programs; null where there is no limit, infinite levels as texts."""
+        limits = [None if isinf(each) else each for each in (self.lower, self.upper)]
+        return {"limits": limits, "steps": [[at, bound_data(low), bound_data(high)] for at, low, high in self.steps]}
 
 
 def level_profiles(database: PlanDatabase, begin: int) -> dict[str, LevelProfile]:
@@ -32,16 +33,34 @@ def level_profiles(database: PlanDatabase, begin: int) -> dict[str, LevelProfile
     }
 
 
+class _Level:
+    """A sum of amounts, some of them infinite, that can be taken back."""
+
+    def __init__(self) -> None:
+        self._finite, self._infinite = 0.0, 0.0
+
+    def add(self, amount: float) -> None:
+        if isinf(amount):
+            self._infinite += copysign(1.0, amount)
+        else:
+            self._finite += amount
+
+    def value(self) -> float:
+        return copysign(inf, self._infinite) if self._infinite else self._finite
+
+
 def _profile(database: PlanDatabase, o: int, begin: int) -> LevelProfile:
     resources = database.plan.resources
     row = o * LIMITS
-    low, high = resources.lower(row + INITIAL, 0.0), resources.upper(row + INITIAL, 0.0)
-    changes: dict[int, tuple[float, float]] = {}
+    low, high = _Level(), _Level()
+    before = (resources.lower(row + INITIAL, 0.0), resources.upper(row + INITIAL, 0.0))
+    low.add(before[0])
+    high.add(before[1])
+    changes: dict[int, list[tuple[float, float]]] = {}
 
     def change(at: int, least: float, most: float) -> None:
         if abs(at) < HALF_INF:
-            before = changes.get(at, (0.0, 0.0))
-            changes[at] = (before[0] + least, before[1] + most)
+            changes.setdefault(at, []).append((least, most))
 
     for u in range(resources.count):
         if resources.sign[u] and resources.on[u] == o:
@@ -50,14 +69,15 @@ def _profile(database: PlanDatabase, o: int, begin: int) -> LevelProfile:
             change(resources.start_low[u], *added)
             if resources.end[u] >= 0:
                 change(resources.end_low[u], -added[0], -added[1])
-    before = (low, high)
     for start, least, most in resources.steps.get(o, ()):
         change(start, least - before[0], most - before[1])
         before = (least, most)
-    steps = [(min([begin, *changes]), low, high)]
+    steps = [(min([begin, *changes]), low.value(), high.value())]
     for at in sorted(changes):
-        low, high = low + changes[at][0], high + changes[at][1]
+        for least, most in changes[at]:
+            low.add(least)
+            high.add(most)
         if at == steps[-1][0]:
             steps.pop()
-        steps.append((at, low, high))
+        steps.append((at, low.value(), high.value()))
     return LevelProfile(resources.lower(row + MINIMUM, -inf), resources.upper(row + MAXIMUM, inf), tuple(steps))

@@ -2,19 +2,25 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import copysign, inf, isinf
 from typing import Any
 
+from runtime.constraints.domains.tags import HALF_INF
 from runtime.plan.database import PlanDatabase
+from runtime.plan.readout.state import bound_data
 from runtime.plan.resources.envelope import Envelope
 from runtime.plan.tags import LIMITS, MAXIMUM, MINIMUM
 
 
 @dataclass(frozen=True, slots=True)
 class OpenLevel:
-    """The first tick `at` which the level of `resource` may get past its `limit`, and how far: to `level`."""
+    """The first tick `at` which the level of `resource` may get past its `limit`, and how far: to `level`.
+
+    The tick is -inf where nothing bounds the time of the use, the level infinite where nothing bounds its amount.
+    """
 
     resource: str
-    at: int
+    at: float
     is_low: bool
     limit: float
     level: float
@@ -22,12 +28,18 @@ class OpenLevel:
     def as_data(self) -> dict[str, Any]:
         """The same for programs."""
         side = "minimum" if self.is_low else "maximum"
-        return {"resource": self.resource, "tick": self.at, side: self.limit, "level": self.level}
+        return {
+            "resource": self.resource,
+            "tick": bound_data(self.at),
+            side: self.limit,
+            "level": bound_data(self.level),
+        }
 
     def text(self) -> str:
         """One clause for people."""
         way = "fall" if self.is_low else "rise"
-        return f"the level of {self.resource} may {way} to {self.level:g} at tick {self.at} (limit {self.limit:g})"
+        when = "at any tick" if isinf(self.at) else f"at tick {self.at}"
+        return f"the level of {self.resource} may {way} to {self.level:g} {when} (limit {self.limit:g})"
 
 
 def open_levels(database: PlanDatabase) -> Iterator[OpenLevel]:
@@ -40,4 +52,5 @@ def open_levels(database: PlanDatabase) -> Iterator[OpenLevel]:
             row = o * LIMITS
             limit = resources.lower(row + MINIMUM, 0.0) if is_low else resources.upper(row + MAXIMUM, 0.0)
             level = limit - envelope.amount if is_low else limit + envelope.amount
-            yield OpenLevel(name, envelope.at, is_low, limit, level)
+            at = envelope.at if abs(envelope.at) < HALF_INF else copysign(inf, envelope.at)
+            yield OpenLevel(name, at, is_low, limit, level)

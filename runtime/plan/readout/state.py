@@ -44,9 +44,9 @@ class TokenState:
         data: dict[str, Any] = {"id": self.name, "predicate": self.predicate, "state": self.state}
         if (own := self.extent) is not None:
             data["object"] = str(own.object)
-            data["start"] = [_bound_data(bound) for bound in own.start]
-            data["duration"] = [_bound_data(bound) for bound in own.duration]
-            data["end"] = [_bound_data(bound) for bound in own.end]
+            data["start"] = [bound_data(bound) for bound in own.start]
+            data["duration"] = [bound_data(bound) for bound in own.duration]
+            data["end"] = [bound_data(bound) for bound in own.end]
             data["params"] = {name: str(domain) for name, domain in own.parameters.items()}
         data["fact"] = self.is_fact
         data["master"] = self.parent
@@ -82,5 +82,6 @@ def bound_text(bound: float) -> str:
     return "+inf" if bound == inf else "-inf" if bound == -inf else str(bound)
 
 
-def _bound_data(bound: float) -> float | str:
+def bound_data(bound: float) -> float | str:
+    """A bound for programs: infinite ones are texts."""
     return bound_text(bound) if abs(bound) == inf else bound
