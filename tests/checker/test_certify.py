@@ -18,6 +18,8 @@ from runtime.executive.record import MissionRecord
 from tests.checker.conditions.campaigns import campaign
 from tests.programs import programs_of
 
+pytestmark = pytest.mark.once
+
 MODELS = Path(__file__).parents[2] / "models"
 # The 10^5 missions of the goal: NDDLC_PROOFS=100000.
 MOST = int(os.environ.get("NDDLC_PROOFS", "100"))

@@ -15,6 +15,8 @@ from nddlc.check import STORE
 from nddlc.main import run
 from tests.checker.fake_agent import load_broken, load_split, load_troubled
 
+pytestmark = pytest.mark.once
+
 GPS = Path("models/gps").resolve()
 
 
@@ -66,7 +68,6 @@ def test_a_model_that_keeps_the_limit_holds(agent: None, capsys: pytest.CaptureF
     assert "HOLDS: the rate is within the accepted 20 %" in capsys.readouterr().out
 
 
-@pytest.mark.once
 def test_the_json_does_not_depend_on_the_workers(agent: None, tmp_path: Path) -> None:
     for workers in ("1", "2"):
         mission = str(GPS / "mission.toml")
@@ -75,7 +76,6 @@ def test_the_json_does_not_depend_on_the_workers(agent: None, tmp_path: Path) ->
         assert (tmp_path / "out1" / name).read_bytes() == (tmp_path / "out2" / name).read_bytes()
 
 
-@pytest.mark.once
 def test_a_batch_is_resumed(agent: None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     mission = str(GPS / "mission.toml")
     assert run(["check", mission, "--missions", "20", "--format", "json"]) == 1

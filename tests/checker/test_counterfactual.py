@@ -23,6 +23,8 @@ from checker.oracle import Verdict
 from checker.pinned import pinned
 from checker.sampling.seeds import mission_seed
 
+pytestmark = pytest.mark.once
+
 GPS = Path("models/gps").resolve()
 MISSIONS = 3
 

@@ -144,7 +144,7 @@ def test_a_second_nddlc_on_the_same_run_is_refused(tmp_path: Path) -> None:
     _, err = second.communicate(timeout=120)
     assert second.returncode == 2
     assert "another nddlc flies run" in err
-    other = begin(tmp_path, "load_slow", "--missions", "6")
+    other = begin(tmp_path, "load_slow", "--missions", "6", "--flights", "0")
     other.communicate(timeout=120)
     assert other.returncode in (0, 1)
     os.kill(first.pid, signal.SIGTERM)

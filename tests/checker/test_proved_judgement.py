@@ -14,6 +14,8 @@ from tests.checker.judge.corruption import ALTERATIONS, again
 from tests.checker.judge.missions import GPS, MISSIONS
 from tests.executive.flying import Flown
 
+pytestmark = pytest.mark.once
+
 MODEL = """
 enum Tone { low, high }
 class Oven extends Timeline { predicate Heat { int level; float warmth; Tone tone; } }

@@ -55,6 +55,7 @@ def test_lint_finds_nothing(file: Path, capsys: Captured) -> None:
     assert code == 0 and "nothing wrong" in said, said
 
 
+@pytest.mark.once
 def test_the_survey_is_flown_to_its_end_without_a_repair() -> None:
     outcome = fly("auv/inl/mission.toml", values=NOMINAL)
     kinds = {event.kind for event in outcome.events}
@@ -66,6 +67,7 @@ def test_the_survey_is_flown_to_its_end_without_a_repair() -> None:
     assert all(after - before <= 5405 for before, after in zip([0, *checks], checks, strict=False))
 
 
+@pytest.mark.once
 def test_a_detection_brings_a_closer_look_and_water_samples() -> None:
     outcome = fly("auv/inl/mission.toml", values=NOMINAL | {"CLUSTER_ID": 28.0})
     assert outcome.abort is None and not outcome.open_goals
@@ -75,6 +77,7 @@ def test_a_detection_brings_a_closer_look_and_water_samples() -> None:
     assert "HighRes" in done and "Firing" in done
 
 
+@pytest.mark.once
 def test_shore_sends_another_track() -> None:
     outcome = fly("auv/front/mission.toml", values=NOMINAL)
     assert outcome.abort is None and not outcome.open_goals
@@ -88,12 +91,14 @@ def test_shore_sends_another_track() -> None:
     assert {(float(k), float(k)) for k in range(1, 8)} <= cells
 
 
+@pytest.mark.once
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_the_survey_copes_with_what_is_drawn(seed: int) -> None:
     outcome = fly("auv/inl/mission.toml", seed)
     assert outcome.abort is None and not outcome.open_goals
 
 
+@pytest.mark.once
 @pytest.mark.parametrize("shape", ["uniform", "normal"])
 @pytest.mark.parametrize("mode", ["inter", "intra"])
 @pytest.mark.parametrize("seed", [1635799601, 3553905289])

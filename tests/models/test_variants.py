@@ -12,6 +12,8 @@ from runtime.executive.outcome import EventKind, Outcome
 from tests.models.bug_variants import Case, Variant, apply, read_variant
 from tests.programs import programs_of
 
+pytestmark = pytest.mark.once
+
 BUGS = Path(__file__).parents[2] / "models" / "auv" / "bugs"
 VARIANTS = [read_variant(file) for file in sorted(BUGS.glob("*.toml"))]
 NOMINAL = {
