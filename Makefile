@@ -34,7 +34,9 @@ AGENTS ?= 500
 MISSION ?= models/auv/inl/mission.toml
 PYTHON := python3.11 python3.12 python3.13 python3.14 python3 python
 BIN := .venv/bin
-PYTEST := $(BIN)/python -m pytest --numprocesses auto --dist worksteal
+# Many tests wait for other processes, so there is one worker more than cores.
+WORKERS := $(shell expr $$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1) + 1)
+PYTEST := $(BIN)/python -m pytest --numprocesses $(WORKERS) --dist worksteal
 FINDINGS := build/findings
 TICKING := $(BIN)/python build_backend/ticking.py
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
