@@ -49,8 +49,6 @@ def _missions(name: str, store_path: Path) -> dict[Mission, Trialled]:
     """The missions of a run, by what makes them the same; ERRORs are left out."""
     if name.endswith(".json"):
         return _reported(Path(name))
-    if not store_path.exists():
-        raise Unusable(f"there is no store `{store_path}`", "`nddlc check` makes one; --store names another")
     try:
         with read_store(store_path) as store:
             return _stored(store, name)

@@ -74,8 +74,6 @@ def command(
     name, _, number = what.partition("#")
     if number and not number.removeprefix("k").isdigit():
         raise Unusable(f"`{number}` is no number of a mission", "write RUN#MISSION, such as latest#37")
-    if not store_path.exists():
-        raise Unusable(f"there is no store `{store_path}`", "`nddlc check` makes one; --store names another")
     try:
         with read_store(store_path) as store:
             found = _found(

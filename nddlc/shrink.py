@@ -54,8 +54,6 @@ def shrunk_mission(what: str, store_path: Path, is_trusted: bool) -> ShrunkMissi
     name, _, chosen = what.partition("#")
     if chosen and not chosen.isdigit():
         raise Unusable(f"`{chosen}` is no number of a mission", "write RUN#MISSION, such as latest#37")
-    if not store_path.exists():
-        raise Unusable(f"there is no store `{store_path}`", "`nddlc check` makes one; --store names another")
     try:
         with read_store(store_path) as store:
             run = store.find(name or LATEST)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from checker.batch.reading import readable_place
-from checker.batch.store import Run, StoreError, check_version, open_store, result_of
+from checker.batch.store import Run, StoreError, check_version, open_store, present_store, result_of
 from checker.batch.write_ahead_log import log_damage
 
 _MOST_MESSAGES = 20
@@ -62,8 +62,7 @@ def salvage(path: Path, target: Path) -> StoreDamage:
 @contextmanager
 def _open(path: Path) -> Iterator[sqlite3.Connection]:
     """A connection that only reads, with the version checked."""
-    if not path.is_file():
-        raise StoreError(f"there is no store `{path}`", "`nddlc check` makes one; --store names another")
+    present_store(path)
     with ExitStack() as stack:
         try:
             place = stack.enter_context(readable_place(path))

@@ -303,9 +303,16 @@ def open_store(path: Path) -> Iterator[RunStore]:
         yield store
 
 
+def present_store(path: Path) -> None:
+    """Refuse a store that is not there, by a StoreError."""
+    if not path.is_file():
+        raise StoreError(f"there is no store `{path}`", "`nddlc check` makes one; --store names another")
+
+
 @contextmanager
 def read_store(path: Path) -> Iterator[RunStore]:
     """Open the store at `path` to read from it; nothing needs to be writable there."""
+    present_store(path)
     with ExitStack() as stack:
         try:
             place = stack.enter_context(readable_place(path))

@@ -320,10 +320,6 @@ def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
             type_of(context, scope, argument)
         if context.callables.has_gaps and name not in context.callables.constraints:
             return None
-        complaint = UNKNOWN_FUNCTION.at(call.function.span, name=name)
-        if name in context.callables.constraints:
-            help_ = f"`{name}` is a constraint: write it as a statement, `{name}(...);`"
-            complaint = UNKNOWN_FUNCTION.at(call.function.span, help=help_, name=name)
         if context.symbols.find_class(name) is not None:
             at = call.function.span
             fix = Fix(f"write `new {name}`", (Edit(Span(at.anchor, at.start, at.start), "new "),), False)
@@ -331,8 +327,10 @@ def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
             context.symbols.put_faulty("new")
             context.complain(UNKNOWN_FUNCTION.at(at, help=help_, fixes=(fix,), name=name))
             return None
-        if name in OTHER_FUNCTIONS:
-            complaint = UNKNOWN_FUNCTION.at(call.function.span, help=OTHER_FUNCTIONS[name], name=name)
+        meant = OTHER_FUNCTIONS.get(name)
+        if meant is None and name in context.callables.constraints:
+            meant = f"`{name}` is a constraint: write it as a statement, `{name}(...);`"
+        complaint = UNKNOWN_FUNCTION.at(call.function.span, help=meant, name=name)
         context.complain(suggest_name(complaint, call.function, context.callables.functions))
         return None
     _check_dialect(context, call, row)

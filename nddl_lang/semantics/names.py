@@ -261,14 +261,13 @@ def complain_unknown(
         constructed = scope.own_class if scope.kind is BlockKind.CONSTRUCTOR else None
         members = _members(context, constructed) if constructed is not None else ()
         candidates = [*scope.visible(), *own, *members, *symbols.names(*values, *tables), *_LITERALS]
-        complaint = UNKNOWN_NAME.at(name.span, name=word)
+        meant, help_ = None, None
         if constructed is not None and _is_predicate(context, constructed, word):
             meant = f'"{word}"'
-            complaint = UNKNOWN_NAME.at(name.span, name=word, help=f"a predicate is named in quotes: `{meant}`")
+            help_ = f"a predicate is named in quotes: `{meant}`"
         elif word == "self" and (scope.own is not None or constructed is not None):
             meant = "this"
-        else:
-            meant = None
+        complaint = UNKNOWN_NAME.at(name.span, name=word, help=help_)
         last = other_name(word, scope.own.predicate) if scope.own is not None else None
         complaint = suggest_name(complaint, name, candidates, meant, last)
         if type_name is not None:
