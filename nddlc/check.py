@@ -138,22 +138,23 @@ def command(
             flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show, promoted=promoted)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
-    with SeekingDisplay() as seeking, Interruption() as interruption:
-        findings = campaign.assess(
-            flown.results,
-            ending=flown.ending,
-            sampling=flown.sampling,
-            bounds=Bounds(flights, _SECONDS_A_FAULT) if flights else None,
-            seconds=_SECONDS,
-            cases=flown.cases,
-            progress=seeking,
-            let=interruption,
-        )
+    with Interruption() as interruption:
+        with SeekingDisplay() as seeking:
+            findings = campaign.assess(
+                flown.results,
+                ending=flown.ending,
+                sampling=flown.sampling,
+                bounds=Bounds(flights, _SECONDS_A_FAULT) if flights else None,
+                seconds=_SECONDS,
+                cases=flown.cases,
+                progress=seeking,
+                let=interruption,
+            )
+        findings = replace(findings, is_stored=not no_store)
+        if not no_store:
+            _keep(findings, store_path)
+        code = _report(campaign, findings, style, output, coverage=coverage)
     ended_by = flown.ended_by or interruption.first
-    findings = replace(findings, is_stored=not no_store)
-    if not no_store:
-        _keep(findings, store_path)
-    code = _report(campaign, findings, style, output, coverage=coverage)
     return code if ended_by is None else _SIGNALLED + ended_by
 
 
