@@ -6,8 +6,7 @@ from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from checker.batch.reading import readable_place
-from checker.batch.store import Run, StoreError, check_version, open_store, present_store, result_of
+from checker.batch.store import Run, StoreError, check_version, open_store, place_to_read, result_of
 from checker.batch.write_ahead_log import log_damage
 
 _MOST_MESSAGES = 20
@@ -62,12 +61,8 @@ def salvage(path: Path, target: Path) -> StoreDamage:
 @contextmanager
 def _open(path: Path) -> Iterator[sqlite3.Connection]:
     """A connection that only reads, with the version checked."""
-    present_store(path)
     with ExitStack() as stack:
-        try:
-            place = stack.enter_context(readable_place(path))
-        except OSError as problem:
-            raise StoreError(f"the store `{path}` cannot be read: {problem.strerror or problem}") from problem
+        place = stack.enter_context(place_to_read(path))
         try:
             connection = sqlite3.connect(f"{place.resolve().as_uri()}?mode=ro", uri=True, timeout=10.0)
             stack.enter_context(closing(connection))

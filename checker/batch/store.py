@@ -303,22 +303,24 @@ def open_store(path: Path) -> Iterator[RunStore]:
         yield store
 
 
-def present_store(path: Path) -> None:
-    """Refuse a store that is not there, by a StoreError."""
+@contextmanager
+def place_to_read(path: Path) -> Iterator[Path]:
+    """Where SQLite can read the store at `path`; raises StoreError where there is none, or it cannot be read."""
     if not path.is_file():
         raise StoreError(f"there is no store `{path}`", "`nddlc check` makes one; --store names another")
-
-
-@contextmanager
-def read_store(path: Path) -> Iterator[RunStore]:
-    """Open the store at `path` to read from it; nothing needs to be writable there."""
-    present_store(path)
     with ExitStack() as stack:
         try:
             place = stack.enter_context(readable_place(path))
         except OSError as problem:
             raise StoreError(f"the store `{path}` cannot be read: {problem.strerror or problem}", _READS) from problem
-        yield stack.enter_context(_opened(place, path))
+        yield place
+
+
+@contextmanager
+def read_store(path: Path) -> Iterator[RunStore]:
+    """Open the store at `path` to read from it; nothing needs to be writable there."""
+    with place_to_read(path) as place, _opened(place, path) as store:
+        yield store
 
 
 @contextmanager
