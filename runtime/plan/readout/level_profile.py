@@ -33,34 +33,36 @@ def level_profiles(database: PlanDatabase, begin: int) -> dict[str, LevelProfile
     }
 
 
-class _Level:
-    """A sum of amounts, some of them infinite, that can be taken back."""
+@dataclass(frozen=True, slots=True)
+class _Amount:
+    """A sum of numbers; infinite ones are counted, those below zero negatively, so that they can be taken back."""
 
-    def __init__(self) -> None:
-        self._finite, self._infinite = 0.0, 0.0
+    finite: float = 0.0
+    infinite: int = 0
 
-    def add(self, amount: float) -> None:
-        if isinf(amount):
-            self._infinite += copysign(1.0, amount)
-        else:
-            self._finite += amount
+    def plus(self, number: float) -> "_Amount":
+        if isinf(number):
+            return _Amount(self.finite, self.infinite + (1 if number > 0.0 else -1))
+        return _Amount(self.finite + number, self.infinite)
+
+    def and_also(self, other: "_Amount") -> "_Amount":
+        return _Amount(self.finite + other.finite, self.infinite + other.infinite)
 
     def value(self) -> float:
-        return copysign(inf, self._infinite) if self._infinite else self._finite
+        return copysign(inf, self.infinite) if self.infinite else self.finite
 
 
 def _profile(database: PlanDatabase, o: int, begin: int) -> LevelProfile:
     resources = database.plan.resources
     row = o * LIMITS
-    low, high = _Level(), _Level()
     before = (resources.lower(row + INITIAL, 0.0), resources.upper(row + INITIAL, 0.0))
-    low.add(before[0])
-    high.add(before[1])
-    changes: dict[int, list[tuple[float, float]]] = {}
+    low, high = _Amount().plus(before[0]), _Amount().plus(before[1])
+    changes: dict[int, tuple[_Amount, _Amount]] = {}
 
     def change(at: int, least: float, most: float) -> None:
         if abs(at) < HALF_INF:
-            changes.setdefault(at, []).append((least, most))
+            lower, upper = changes.get(at, (_Amount(), _Amount()))
+            changes[at] = (lower.plus(least), upper.plus(most))
 
     for u in range(resources.count):
         if resources.sign[u] and resources.on[u] == o:
@@ -74,9 +76,7 @@ def _profile(database: PlanDatabase, o: int, begin: int) -> LevelProfile:
         before = (least, most)
     steps = [(min([begin, *changes]), low.value(), high.value())]
     for at in sorted(changes):
-        for least, most in changes[at]:
-            low.add(least)
-            high.add(most)
+        low, high = low.and_also(changes[at][0]), high.and_also(changes[at][1])
         if at == steps[-1][0]:
             steps.pop()
         steps.append((at, low.value(), high.value()))

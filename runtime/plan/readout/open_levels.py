@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import copysign, inf, isinf
+from math import isinf
 from typing import Any
 
-from runtime.constraints.domains.tags import HALF_INF
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.state import bound_data
 from runtime.plan.resources.envelope import Envelope
+from runtime.plan.store.domain_texts import wide
 from runtime.plan.tags import LIMITS, MAXIMUM, MINIMUM
 
 
@@ -52,5 +52,4 @@ def open_levels(database: PlanDatabase) -> Iterator[OpenLevel]:
             row = o * LIMITS
             limit = resources.lower(row + MINIMUM, 0.0) if is_low else resources.upper(row + MAXIMUM, 0.0)
             level = limit - envelope.amount if is_low else limit + envelope.amount
-            at = envelope.at if abs(envelope.at) < HALF_INF else copysign(inf, envelope.at)
-            yield OpenLevel(name, at, is_low, limit, level)
+            yield OpenLevel(name, wide(envelope.at), is_low, limit, level)
