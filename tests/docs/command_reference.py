@@ -14,6 +14,7 @@ _HEAD = """\
 Made from the commands by `python -m tests.docs.command_reference`; `nddlc COMMAND --help` prints the same.
 """
 _MAN_HEAD = r""".TH NDDLC 1 "" "nddlc" "NDDL models"
+.ad l
 .SH NAME
 nddlc \- check, run and explain NDDL models
 .SH SYNOPSIS
@@ -58,7 +59,7 @@ def _markdown() -> Iterator[str]:
 def _man() -> Iterator[str]:
     yield _MAN_HEAD
     for ctx, command in _commands():
-        yield f".SH {_roff(ctx.command_path).upper()}\n.ad l\n.B {_roff(_usage(ctx))}\n.PP\n{_roff(_help(command))}\n"
+        yield f".SH {_roff(ctx.command_path).upper()}\n.B {_roff(_usage(ctx))}\n.PP\n{_roff(_help(command))}\n"
         for words, meaning in _options(ctx, command):
             yield f".TP\n.B {_roff(words)}\n{_roff(meaning)}\n"
     yield (
