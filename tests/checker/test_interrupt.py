@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 from jsonschema import Draft202012Validator
@@ -18,10 +19,12 @@ from checker.batch.pool import Batch, fly_all
 from checker.batch.worker import Task
 from checker.mission import read_mission
 from checker.oracle import Verdict
+from checker.report.document import json_report
 from checker.schemas import schema
 from nddlc.main import run
-from tests.checker.fake_agent import load_signalled
+from tests.checker.fake_agent import load_signalled, load_split
 from tests.checker.test_batch import Taker
+from tests.checker.test_commands import plug
 
 ROOT = Path(__file__).resolve().parents[2]
 GPS = str(ROOT / "models/gps/mission.toml")
@@ -188,6 +191,24 @@ def test_a_real_time_signal_costs_one_mission() -> None:
     assert len(taker.results) == 6
 
 
+def test_a_signal_while_reports_are_written_leaves_none_out(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def pressed(*arguments: Any) -> str:
+        signal.raise_signal(signal.SIGINT)
+        return json_report(*arguments)
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("nddlc.check.json_report", pressed)
+    plug(monkeypatch, load_split)
+    assert run(["check", GPS, "--missions", "8", "--workers", "1", "--flights", "0"]) == 128 + signal.SIGINT
+    told = capsys.readouterr()
+    assert "gps: 8 missions" in told.out and "interrupted" not in told.err
+    assert {one.name for one in Path("nddlc-report").iterdir()} == {
+        *("report.json", "report.html", "report.md", "report.sarif", "junit.xml"),
+    }
+
+
 @pytest.mark.parametrize(("number", "is_group"), [(signal.SIGINT, True), (signal.SIGTERM, False)])
 def test_a_signal_while_causes_are_sought_leaves_what_was_found(
     tmp_path: Path, number: signal.Signals, is_group: bool
@@ -209,5 +230,5 @@ def test_a_signal_while_causes_are_sought_leaves_what_was_found(
     assert "nddlc explain" in out
     assert took < 2.0 + LAG
     report = json.loads((tmp_path / "nddlc-report/report.json").read_text(encoding="utf-8"))
-    assert report["verdict"] == "interrupted" or report["counts"]["fail"] == 1
+    assert (report["verdict"], report["ending"], report["counts"]["fail"]) == ("fails", "complete", 1)
     assert list(Draft202012Validator(schema("report")).iter_errors(report)) == []

@@ -37,11 +37,14 @@ from nddlc.main import run
 from runtime.executive.outcome import ElementKind, EventKind, Phase, RepairStage
 from tests.checker.fake_agent import load_broken, load_split
 from tests.checker.test_commands import plug
+from tests.cli.test_front import ENDLESS
 
 pytestmark = pytest.mark.once
 
 MODELS = Path("models").resolve()
 GPS = MODELS / "gps"
+SURVEY = MODELS / "templates" / "survey" / "mission.toml"
+CASES = Path("tests/conformance/cases").resolve()
 ENUMERATIONS: list[type[Enum]] = [
     *(Claim, EditKind, ElementKind, Ending, EventKind, Extreme, Fate, Finding, GoalFate, MissionRole, NodeKind),
     *(Phase, RepairStage, Severity, StepKind, TrialsEnd, Verdict),
@@ -155,25 +158,23 @@ def test_findings_of_lint_and_of_check_fit(printed: Any) -> None:
 
 
 def test_mutants_fit(printed: Any) -> None:
-    survey = MODELS / "templates" / "survey" / "mission.toml"
-    assert misfits("mutate", printed("mutate", survey, "--limit", "2", "--missions", "3", "--json")) == []
-
-
-CASES = Path("tests/conformance/cases").resolve()
-SURVEY = MODELS / "templates" / "survey" / "mission.toml"
+    assert misfits("mutate", printed("mutate", SURVEY, "--limit", "2", "--missions", "3", "--json")) == []
 
 
 @pytest.mark.parametrize("name", ["res_uses_is_an_interval", "res_subclass_of_reservoir", "err_several_syntax_errors"])
 def test_loaded_and_planned_models_fit(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     path = str(CASES / f"{name}.nddl")
-    for command, options in (
-        ("load", ()),
-        ("plan", ("--explain", "--max-steps", "50")),
-        ("plan", ("--max-memory", "1")),
-    ):
+    for command, *options in (["load"], ["plan", "--explain", "--max-steps", "50"]):
         run([command, path, "--json", *options])
         (line,) = capsys.readouterr().out.splitlines()
         assert misfits(command, json.loads(line, parse_constant=pytest.fail)) == []
+
+
+def test_a_search_that_ran_out_of_memory_fits(printed: Any) -> None:
+    Path("m.nddl").write_text(ENDLESS, encoding="utf-8")
+    found = printed("plan", "m.nddl", "--horizon", "0", "inf", "--max-memory", "20", "--json", code=1)
+    assert misfits("plan", found) == []
+    assert found["solve"]["result"] == "memory"
 
 
 def test_a_search_that_finds_no_plan_fits(printed: Any) -> None:
