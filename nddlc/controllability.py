@@ -9,8 +9,9 @@ from checker.controllability.dynamic import offending_cycle
 from checker.controllability.static import is_strongly_controllable, is_weakly_controllable
 from checker.excerpts import Excerpts
 from checker.mission import LARGEST_SEED
+from checker.proofs.certify import TooManyTokensError
 from checker.proofs.rendering import control_data, control_lines
-from checker.proofs.uncertain import plan_networks
+from checker.proofs.uncertain import plan_networks, requests_flown
 from nddl_lang.text.values import json_text
 from nddlc.certify import certifier_of
 from nddlc.inputs import Unusable, mission_here
@@ -27,26 +28,31 @@ def command(path: str | None, seed: int | None, style: str, is_trusted: bool) ->
     """Tell whether the plans of MISSION can be carried out, however long the vehicle takes for what it is asked.
 
     A flight that passes gives the plan of each reactor: tokens, order, relations. What the reactor asks others for is
-    uncertain, between the least and the greatest duration over the box of the sampled parameters. The plan is
+    uncertain, between the least and the greatest duration over the box of the sampled parameters, as far as the lines
+    tell that this flight used, and as flights at the corners of the box and at drawn points show it. The plan is
     dynamically controllable if some strategy keeps all demands that only knows what has happened. Ends with 0 if all
     plans are, with 1 if one is not, with 2 if it cannot be told.
     """
     _, mission, models = prepare(mission_here(path), is_trusted=is_trusted)
     certifier = certifier_of(models, mission.check.seed if seed is None else seed)
-    if not certifier.find_structure():
-        raise Unusable("none of the missions flown passes, so there is no plan to look at")
+    try:
+        if not certifier.find_structure():
+            raise Unusable("none of the missions flown passes, so there is no plan to look at")
+    except TooManyTokensError as found:
+        raise Unusable(str(found)) from None
     excerpts = Excerpts(Path(models.agent.root))
     answers: list[dict[str, Any]] = []
     lines: list[str] = []
-    is_controllable = True
-    for plan in plan_networks(certifier.structures[0], certifier.dated[0], certifier.ranges()):
+    verdicts = {0}
+    flights = [requests_flown(models.agent, each) for each in certifier.records_over_the_box()]
+    for plan in plan_networks(certifier.structures[0], certifier.dated[0], certifier.ranges(), flights):
         cycle = offending_cycle(plan.network)
         is_strong = cycle is None and is_strongly_controllable(plan.network)
         is_weak = cycle is None or is_weakly_controllable(plan.network)
-        is_controllable &= cycle is None
+        verdicts.add(1 if cycle is not None else 2 if plan.endless else 0)
         lines += control_lines(mission.agent.name, plan, cycle, excerpts, is_strong=is_strong, is_weak=is_weak)
         answers.append(control_data(plan, cycle, excerpts, is_strong=is_strong, is_weak=is_weak))
     if not answers:
         lines.append(f"{mission.agent.name}: no reactor asks another for anything: nothing is uncertain")
     click.echo(json_text(answers) if style == "json" else "\n".join(lines))
-    return 0 if is_controllable else 1
+    return 1 if 1 in verdicts else max(verdicts)

@@ -33,7 +33,15 @@ _MOST_STRUCTURES = 24
 _MOST_CORNERS = 64
 _NUDGES = 3
 _MOST_DRAWN = 8
+_MOST_TOKENS = 10_000  # of a flight that is told to z3; some half a minute
 _UNSEEN = "but for points within a billionth of a limit, where doubles round"
+
+
+class TooManyTokensError(Exception):
+    """A flight has more tokens than z3 is told of."""
+
+    def __init__(self, count: int) -> None:
+        super().__init__(f"a flight has {count} tokens, more than the {_MOST_TOKENS} that are followed")
 
 
 class Certainty(Enum):
@@ -91,6 +99,12 @@ class Certifier:
             return self._unknown(f"`{self.box.computed[0]}` is computed from other parameters")
         if self.agent.coded:
             return self._unknown(f"`{self.agent.coded[0].name}` is written in Python")
+        try:
+            return self._certified(corners)
+        except TooManyTokensError as found:
+            return self._unknown(str(found))
+
+    def _certified(self, corners: bool) -> Certificate:
         for point in self._first_points(corners):
             failed = self._flown(point)
             if failed is not None:
@@ -127,9 +141,19 @@ class Certifier:
         return self._answer(Certainty.CERTIFIED, why=_UNSEEN if has_gaps else "")
 
     def find_structure(self) -> bool:
-        """Fly the middle of the box, else points drawn evenly, until a mission passes."""
+        """Fly the middle of the box, else points drawn evenly, until a mission passes.
+
+        TooManyTokensError if that is too large to be told to z3.
+        """
         points = (self.box.middle(), *self.box.drawn(_MOST_CORNERS, 0))
         return any(self._flown(point) is None for point in points)
+
+    def records_over_the_box(self) -> Iterator[MissionRecord]:
+        """Fly the middle, the corners (up to 64) and 8 points drawn evenly: what was executed, passing or not."""
+        for point in self._first_points(True):
+            _, record, _ = self.fly(point)
+            self.flights += 1
+            yield record
 
     def _first_points(self, corners: bool) -> Iterator[Point]:
         yield self.box.middle()
@@ -148,6 +172,9 @@ class Certifier:
             self.base = point
         if self.structures and not self._is_still_broken(point):
             return None
+        count = sum(len(each.tokens) for each in record.reactors)
+        if count > _MOST_TOKENS:
+            raise TooManyTokensError(count)
         structure = structure_of(self.agent, self.programs, record)
         for name, variables in structure.draws.items():
             structure.values.update(dict.fromkeys(variables, point[name]))

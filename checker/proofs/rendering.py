@@ -135,10 +135,14 @@ def control_lines(
     is_weak: bool | None,
 ) -> list[str]:
     """What is said of one reactor's plan."""
-    answer = "dynamically controllable" if cycle is None else "not dynamically controllable"
-    lines = [f"{name}, plan of {plan.reactor}: {answer}; {_static(is_strong, is_weak)}"]
+    if cycle is None and plan.endless:
+        lines = [f"{name}, plan of {plan.reactor}: whether it is controllable is not known"]
+    else:
+        answer = "dynamically controllable" if cycle is None else "not dynamically controllable"
+        lines = [f"{name}, plan of {plan.reactor}: {answer}; {_static(is_strong, is_weak)}"]
     lines.append("  the vehicle decides:")
     lines += [f"    {_taken(each)}" for each in plan.durations]
+    lines += [f"    {each}: for how long is not known" for each in plan.endless]
     if plan.left_out:
         lines.append(f"  {plan.left_out} demands are no distances between times, and are left out")
     if cycle is not None:
@@ -189,12 +193,13 @@ def control_data(
     spans = [each.span for each in _cycle(cycle or ()) if isinstance(each, Demand) and each.span is not None]
     return {
         "reactor": plan.reactor,
-        "dynamic": cycle is None,
-        "strong": is_strong,
-        "weak": is_weak,
+        "dynamic": (None if plan.endless else True) if cycle is None else False,
+        "strong": None if plan.endless and is_strong else is_strong,
+        "weak": None if plan.endless and is_weak else is_weak,
         "durations": [
             {"token": each.token, "between": [each.lower, each.upper], "after": each.after} for each in plan.durations
         ],
+        "not_known": list(plan.endless),
         "left_out": plan.left_out,
         "cycle": [place_data(place_of(span, excerpts.root), excerpts) for span in spans],
     }

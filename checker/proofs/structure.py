@@ -106,20 +106,15 @@ class _ReactorReader:
                 self._add(reader.follow(program.rules[run.rule].body, run, token.key))
         for name, count in reader.untold.items():
             self.found.untold[name] = self.found.untold.get(name, 0) + count
+        for parameter, drawn in reader.draws.items():
+            known = self.found.draws.setdefault(parameter, [])
+            known += [name for name in drawn if name not in known]
         self._alias(standing)
         self._order()
 
     def _add(self, demands: Iterator[Demand]) -> None:
-        """Add the demands of a body, and note what it samples."""
-        for demand in demands:
-            self.found.demands.append(demand)
-            for each in demand.numbers:
-                name = self.symbols.name_of(each)
-                if name.startswith("sampled "):
-                    parameter = name.removeprefix("sampled ").partition(" of ")[0]
-                    known = self.found.draws.setdefault(parameter, [])
-                    if name not in known:
-                        known.append(name)
+        """Add the demands of a body."""
+        self.found.demands.extend(demands)
 
     def _standing(self, key: int) -> int:
         for _ in range(_MOST_MERGES):

@@ -1,12 +1,13 @@
 """A flown mission's plan as a network with uncertain durations: those of tokens that a reactor asks others for.
 
-How long such a token may take is the range of what its owner makes of the sampled parameters, over the whole box.
+How long such a token may take is the range of what its owner makes of the sampled parameters, over the whole box. The
+flight shows one branch of the owner's rules: what other flights show beside it counts, too.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import ceil, floor, isinf
+from math import ceil, floor, inf, isinf
 
 import z3
 
@@ -18,7 +19,8 @@ from checker.proofs.intervals import Ranges
 from checker.proofs.operands import name_of
 from checker.proofs.solving import fraction
 from checker.proofs.structure import Structure
-from runtime.executive.record import Value
+from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.record import MissionRecord, Value
 
 _POINTS = (".start", ".end")
 _LENGTH = ".duration"
@@ -36,23 +38,59 @@ class VehicleDuration:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlanNetwork:
-    """The network of one reactor's plan; `left_out` counts demands that are no distances between times."""
+    """The network of one reactor's plan; `left_out` counts demands that are no distances between times.
+
+    `endless` are the requests for which no longest duration is known: nothing stands for them in the network.
+    """
 
     reactor: str
     network: UncertainNetwork
     durations: tuple[VehicleDuration, ...]
     left_out: int
+    endless: tuple[str, ...] = ()
 
 
-def plan_networks(structure: Structure, found: Dated, ranges: Ranges) -> Iterator[PlanNetwork]:
-    """The network of each reactor that asks others for something."""
+_Request = tuple[str, str, int]  # reactor, predicate, the how manieth of its kind
+Flown = Mapping[_Request, tuple[int, int]]  # when requests began and ended
+
+
+def requests_flown(agent: AgentConfiguration, record: MissionRecord) -> Flown:
+    """When the owners of what reactors asked for began and ended it, as far as it ended."""
+    owners = {name: each.name for each in agent.reactors for name in each.internal}
+    done = {
+        (reactor.reactor, str(each.object), each.start): each.end
+        for reactor in record.reactors
+        for each in reactor.tokens
+        if each.state == "active" and isinstance(each.end, int)
+    }
+    found: dict[_Request, tuple[int, int]] = {}
+    for configuration, reactor in zip(agent.reactors, record.reactors, strict=True):
+        counts: dict[str, int] = {}
+        for token in sorted(reactor.tokens, key=lambda one: one.start if isinstance(one.start, int) else inf):
+            asked = token.origin != "observation" and str(token.object) in configuration.external
+            if not asked or token.state != "active" or not isinstance(token.start, int):
+                continue
+            number = counts[token.predicate] = counts.get(token.predicate, 0) + 1
+            end = done.get((owners.get(str(token.object), ""), str(token.object), token.start))
+            if end is not None:
+                found[configuration.name, token.predicate, number] = (token.start, end)
+    return found
+
+
+def plan_networks(
+    structure: Structure, found: Dated, ranges: Ranges, flights: Sequence[Flown] = ()
+) -> Iterator[PlanNetwork]:
+    """The network of each reactor that asks others for something; `flights` are those of other values."""
     for reactor in dict.fromkeys(reactor for reactor, _, _ in structure.asked):
-        yield _Builder(structure, found, ranges, reactor).build()
+        yield _Builder(structure, found, ranges, reactor, flights).build()
 
 
 class _Builder:
-    def __init__(self, structure: Structure, found: Dated, ranges: Ranges, reactor: str) -> None:
+    def __init__(
+        self, structure: Structure, found: Dated, ranges: Ranges, reactor: str, flights: Sequence[Flown]
+    ) -> None:
         self.structure = structure
+        self.flights = flights
         self.known = found.known
         self.ranges = ranges
         self.reactor = reactor
@@ -72,32 +110,56 @@ class _Builder:
     def build(self) -> PlanNetwork:
         """The edges of all demands on the reactor's times, and the links of what it asked for."""
         durations = []
-        asked = [each for each in self.structure.asked if each[0] == self.reactor and each[1] + ".end" in self.known]
+        endless = []
+        asked = [each for each in self.structure.asked if each[0] == self.reactor]
+        self.requests = dict(self._numbered(asked))
         for number, (_, variable, name) in enumerate(asked):
             taken = self._taken(variable, name, asked[:number] + asked[number + 1 :])
-            if taken is not None:
+            if taken is None:
+                endless.append(name)
+            else:
                 durations.append(taken)
         for demand in self.structure.demands:
             names = [name for each in demand.numbers if (name := name_of(each))]
             own = [name for name in names if name.startswith(f"{self.reactor}:")]
             if own and len(own) == len(names) and any(name.endswith((*_POINTS, _LENGTH)) for name in own):
                 self._demand(demand)
-        return PlanNetwork(self.reactor, self.network, tuple(durations), self.left_out)
+        return PlanNetwork(self.reactor, self.network, tuple(durations), self.left_out, tuple(endless))
+
+    def _numbered(self, asked: Iterable[tuple[str, str, str]]) -> Iterator[tuple[str, _Request]]:
+        """What was asked for by variable, as other flights know it."""
+        counts: dict[str, int] = {}
+        for _, variable, name in sorted(asked, key=lambda one: self._flown(one[1] + ".start")):
+            predicate = name.partition("#")[0]
+            counts[predicate] = counts.get(predicate, 0) + 1
+            yield variable, (self.reactor, predicate, counts[predicate])
+
+    def _flown(self, name: str) -> int:
+        value = self.structure.values[name]
+        assert isinstance(value, int)
+        return value
 
     def _taken(self, variable: str, name: str, others: Sequence[tuple[str, str, str]]) -> VehicleDuration | None:
         """How long a token takes, from its start or from the end of another on: what is told most exactly."""
-        end = self.known[variable + ".end"]
+        end = self.known.get(variable + ".end")
+        if end is None:
+            return None
         flown = self.structure.values[variable + ".end"]
-        origins = [(variable + ".start", "")]
+        origins = [(variable, ".start", "")]
         origins += [
-            (other + ".end", label) for _, other, label in others if self._is_before(other + ".end", flown, variable)
+            (other, ".end", label) for _, other, label in others if self._is_before(other + ".end", flown, variable)
         ]
         best: tuple[float, str, VehicleDuration] | None = None
-        for origin, label in origins:
+        for source, point, label in origins:
+            origin = source + point
             if origin not in self.known:
                 continue
             lower, upper = self.ranges.range(z3.simplify(end - self.known[origin]))
-            if isinf(lower) or isinf(upper) or lower < 0:
+            if isinf(lower) or isinf(upper):
+                continue
+            seen = list(self._seen(variable, source, point))
+            lower, upper = min([lower, *seen]), max([upper, *seen])
+            if lower < 0:
                 continue
             if best is None or upper - lower < best[0]:
                 best = (upper - lower, origin, VehicleDuration(name, ceil(lower), floor(upper), label))
@@ -107,6 +169,13 @@ class _Builder:
         link = ContingentLink(self.points[origin], self.points[variable + ".end"], taken.lower, taken.upper, taken)
         self.network.links.append(link)
         return taken
+
+    def _seen(self, variable: str, source: str, point: str) -> Iterator[int]:
+        """How long a token took in each flight, from a time of another on."""
+        for flight in self.flights:
+            token, other = flight.get(self.requests[variable]), flight.get(self.requests[source])
+            if token is not None and other is not None:
+                yield token[1] - other[_POINTS.index(point)]
 
     def _is_before(self, other: str, flown: Value, variable: str) -> bool:
         """Whether another end came before that of a token in the flight, while it lasted."""

@@ -2,9 +2,12 @@
 
 import json
 import os
+import shutil
 from dataclasses import replace
 from itertools import product
+from math import inf
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,10 +16,13 @@ from click.testing import CliRunner
 from checker.controllability.dynamic import offending_cycle
 from checker.controllability.network import ContingentLink, RequirementEdge, UncertainNetwork
 from checker.controllability.static import is_consistent, is_strongly_controllable, is_weakly_controllable
+from checker.proofs.intervals import Ranges
 from nddlc.controllability import command
+from nddlc.inputs import Unusable
 from tests.checker.controllability_games import random_network, wins
 
 GPS = Path(__file__).parents[2] / "models" / "gps"
+DEADLINE = GPS.parent / "templates" / "deadline"
 # The 10^4 networks of the goal: NDDLC_PROOFS=10000.
 MOST = int(os.environ.get("NDDLC_PROOFS", "300"))
 HORIZON = 20
@@ -141,3 +147,58 @@ def test_the_command_names_the_lines_that_no_strategy_keeps() -> None:
     assert "plan of navigator: not dynamically controllable; not strongly, not even weakly" in found.output
     assert "duration <= SURFACE_MAX" in found.output
     assert "takes 1 to 40" in found.output
+
+
+def told(folder: Path, changes: dict[str, str], simulator: str = "") -> tuple[int, dict[str, Any]]:
+    """The template `deadline` with texts replaced, asked about: exit code and the one plan."""
+    for source in (DEADLINE, DEADLINE.parent / "common"):
+        for path in source.iterdir():
+            shutil.copy(path, folder)
+    for path in folder.glob("*.nddl"):
+        text = path.read_text(encoding="utf-8")
+        for old, new in changes.items():
+            text = text.replace(old, new)
+        path.write_text(text, encoding="utf-8")
+    if simulator:
+        path = folder / "simulator.nddl"
+        path.write_text(path.read_text(encoding="utf-8").partition("Oven::Bake")[0] + simulator, encoding="utf-8")
+    found = CliRunner().invoke(command, [str(folder / "mission.toml"), "--format", "json"], standalone_mode=False)
+    assert found.exception is None
+    (plan,) = json.loads(found.output)
+    return found.return_value, plan
+
+
+@pytest.mark.parametrize(("most", "code"), [(90, 0), (89, 1)])
+def test_whole_numbers_that_are_drawn_make_durations_uncertain(most: int, code: int, tmp_path: Path) -> None:
+    answer, plan = told(tmp_path, {"ANALYSIS_MAX = 90": f"ANALYSIS_MAX = {most}"})
+    assert answer == code
+    assert [(each["between"], each["token"].partition("#")[0]) for each in plan["durations"]] == [
+        ([50, 90], "Oven.Bake")
+    ]
+    assert (plan["dynamic"], plan["strong"]) == (code == 0, False)
+
+
+def test_a_branch_that_the_flight_did_not_take_counts(tmp_path: Path) -> None:
+    body = "if (heating > 55) { duration == 85; } else { duration == 30; }"
+    rule = f"Oven::Bake {{ int heating; heating == sampledParameter(HEATING); {body} }}"
+    simulator = f"{rule}\nOven oven = new Oven(Internal);\nclose();\n"
+    answer, plan = told(tmp_path, {"ANALYSIS_MAX = 90": "ANALYSIS_MAX = 84"}, simulator)
+    assert [each["between"] for each in plan["durations"]] == [[30, 85]]
+    assert answer == 1
+
+
+def test_what_nothing_bounds_is_not_called_controllable(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Ranges, "range", lambda _self, _number: (-inf, inf))
+    answer, plan = told(tmp_path, {})
+    assert answer == 2
+    assert (plan["dynamic"], plan["strong"], plan["weak"]) == (None, None, None)
+    assert [each.partition("#")[0] for each in plan["not_known"]] == ["Oven.Bake"]
+    found = CliRunner().invoke(command, [str(tmp_path / "mission.toml")], standalone_mode=False)
+    assert "whether it is controllable is not known" in found.output
+    assert "for how long is not known" in found.output
+
+
+def test_a_flight_too_large_for_z3_is_refused_at_once() -> None:
+    found = CliRunner().invoke(command, [str(GPS.parent / "auv" / "inl" / "mission.toml")], standalone_mode=False)
+    assert isinstance(found.exception, Unusable)
+    assert "tokens, more than the 10000 that are followed" in found.exception.message
