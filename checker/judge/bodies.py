@@ -106,6 +106,7 @@ def _post(post: Post, names: VariableNames, written: Written, make: StepMaker[_S
     for index, operand in enumerate(post.operands):
         if isinstance(operand, LocalVariable) and operand.slot in undefined:
             undefined.discard(operand.slot)
+            names.parts[operand.slot] = tuple([each for each in post.operands if each is not operand])
             return [make.define(post, index, operand.slot, names)]
     meaning = MEANINGS.get(name) or written.get(name)
     if meaning is None:

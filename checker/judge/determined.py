@@ -2,7 +2,7 @@
 
 from checker.judge.functions import COMPUTED
 from checker.judge.operands import BodyFrame, VariableNames
-from checker.judge.solving import solver
+from checker.judge.solving import PartRange, solver
 from checker.judge.values import ENDLESS, UNKNOWN, is_open
 from compiler.program import Constant, GlobalVariable, LocalVariable, Operand, Post, TokenVariable
 from runtime.executive.record import Value
@@ -48,6 +48,8 @@ class Determined:
         if any(isinstance(value, (int, float)) and abs(value) >= ENDLESS for value in values):
             return False  # what lies beyond the bounds of numbers is never fixed
         k = unfixed[0]
+        if isinstance(values[k], PartRange):
+            return False
         if self.owners[k] == _CHILD:
             return frame.tokens[self.tokens[k]] is not None
         return self.owners[k] == _OWN and _CHILD not in self.owners

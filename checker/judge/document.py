@@ -15,12 +15,12 @@ from runtime.executive.record import (
 
 
 def value_data(value: Value) -> Any:
-    """A value as JSON: itself, `{"between": [lower, upper]}` (null: no bound) or `{"one_of": [...]}`."""
+    """A value as JSON: itself (endless: `"inf"`), `{"between": [lower, upper]}` (null: no bound) or `{"one_of": [...]}`."""
     if isinstance(value, ValueRange):
         return {"between": [None if isinf(end) else end for end in value]}
     if isinstance(value, OpenValues):
-        return {"one_of": list(value.values)}
-    return value
+        return {"one_of": [value_data(each) for each in value.values]}
+    return str(value) if isinstance(value, float) and isinf(value) else value
 
 
 def record_data(record: MissionRecord) -> dict[str, Any]:

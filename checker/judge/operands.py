@@ -1,6 +1,6 @@
 """Operands of a program as functions that read a value from the frame of one run."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from math import inf
 from typing import Any, assert_never
 
@@ -64,7 +64,19 @@ class VariableNames:
         self.clock = next((k for k, (name, _) in enumerate(program.globals) if name == "AGENT_CLOCK"), -1)
         self.locals: dict[int, str] = {}
         self.tokens: dict[int, tuple[str, str]] = {}  # slot -> label and predicate
+        self.parts: dict[int, tuple[Operand, ...]] = {}  # slot of a part of an expression -> what it is computed from
         self._kinds: dict[tuple[str, str], bool] = {}
+
+    def tokens_in(self, operands: Iterable[Operand]) -> frozenset[int]:
+        """The slots of the tokens of which operands are variables, or from whose variables they are computed."""
+        found: set[int] = set()
+        for each in operands:
+            match each:
+                case TokenVariable(token=token):
+                    found.add(token)
+                case LocalVariable(slot=slot) if slot in self.parts:
+                    found |= self.tokens_in(self.parts[slot])
+        return frozenset(found)
 
     def of(self, operand: Operand) -> str:
         """The name of an operand as the modeler wrote it; empty for constants and parts of expressions."""

@@ -23,7 +23,6 @@ from compiler.program import (
     ObjectLoop,
     Post,
     Sample,
-    TokenVariable,
     TypeCode,
 )
 from nddl_lang.text.source import Span
@@ -200,6 +199,7 @@ def _check(post: Post, meaning: Meaning, names: VariableNames) -> Step:
 def _two(post: Post, meaning: Meaning, names: VariableNames) -> Step:
     first, second = _reads(post, names)
     determined = Determined(post, names)
+    tokens = names.tokens_in(post.operands)
 
     def step(frame: BodyFrame) -> None:
         a, b = first(frame), second(frame)
@@ -212,9 +212,9 @@ def _two(post: Post, meaning: Meaning, names: VariableNames) -> Step:
             if frame.choosing is not None:
                 determined.infer(frame, [a, b])
             elif determined.is_left_open(frame, [a, b]):
-                _refuse(frame, post, [a, b], names, LEFT_OPEN)
+                _refuse(frame, post, [a, b], names, tokens, LEFT_OPEN)
         else:
-            _refuse(frame, post, [a, b], names)
+            _refuse(frame, post, [a, b], names, tokens)
 
     return step
 
@@ -222,6 +222,7 @@ def _two(post: Post, meaning: Meaning, names: VariableNames) -> Step:
 def _many(post: Post, meaning: Meaning, names: VariableNames) -> Step:
     reads = _reads(post, names)
     determined = Determined(post, names)
+    tokens = names.tokens_in(post.operands)
 
     def step(frame: BodyFrame) -> None:
         values = [read(frame) for read in reads]
@@ -234,9 +235,9 @@ def _many(post: Post, meaning: Meaning, names: VariableNames) -> Step:
             if frame.choosing is not None:
                 determined.infer(frame, values)
             elif determined.is_left_open(frame, values):
-                _refuse(frame, post, values, names, LEFT_OPEN)
+                _refuse(frame, post, values, names, tokens, LEFT_OPEN)
         else:
-            _refuse(frame, post, values, names)
+            _refuse(frame, post, values, names, tokens)
 
     return step
 
@@ -245,13 +246,14 @@ def _check_loose(post: Post, meaning: Meaning, names: VariableNames) -> Step:
     reads = _reads(post, names)
     fixed = [k for k, operand in enumerate(post.operands) if not is_range(operand)]
     determined = Determined(post, names)
+    tokens = names.tokens_in(post.operands)
 
     def step(frame: BodyFrame) -> None:
         values = [read(frame) for read in reads]
         bench = frame.bench
         answer = meaning(*values)
         if answer is False:
-            _refuse(frame, post, values, names)
+            _refuse(frame, post, values, names, tokens)
         elif answer or not any(is_open(values[k]) for k in fixed):
             bench.judged += 1
         else:
@@ -267,10 +269,11 @@ def _refuse(
     post: Post,
     values: list[Value],
     names: VariableNames,
+    tokens: frozenset[int],
     said: tuple[str, str] = ("it holds", "it does not"),
 ) -> None:
-    for operand in post.operands:
-        tok = frame.tokens[operand.token] if isinstance(operand, TokenVariable) else None
+    """Tell that a constraint does not hold of `values`, in which variables of `tokens` occur."""
+    for tok in [frame.tokens[each] for each in tokens]:
         if tok is not None and tok is not frame.tok and tok.is_outdated:
             frame.bench.skip(CUT_OFF)
             return

@@ -64,7 +64,7 @@ class TypedValues:
 
     def _scalar(self, data: Any, type_: TypeCode, where: str) -> _Scalar:
         match type_.kind:
-            case "float" if _is_number(data):
+            case "float" if _is_number(data) or data in ("inf", "-inf"):
                 return float(data)
             case "int" if _is_number(data) and data == int(data):
                 return int(data)
