@@ -15,6 +15,7 @@ from runtime.executive.mission import record_mission
 from tests.programs import programs_of
 
 ROAD = """#include "TREX.nddl"
+int PAUSE = 10;
 class Truck extends AgentTimeline {
     predicate Parked { }
     predicate Drive { float metres; }
@@ -105,8 +106,8 @@ def test_an_argument_that_nobody_gave_may_stay_open_below_a_function(body: str, 
 
 
 def test_a_sum_with_what_a_repair_has_forgotten_binds_nobody(tmp_path: Path) -> None:
-    clear = "contains(Truck.Drive out); contains(Truck.Turn turn); out.metres == 9.0; out before turn;"
-    more = "turn.start <= out.end + 10; turn.duration <= 25; turn.end == end;"
+    clear = "contains(Truck.Drive out); contains(Truck.Turn turn); out before turn;"
+    more = "turn.start <= out.end + PAUSE; turn.duration <= 25; turn.end == end;"
     found, fates = alarms(written(tmp_path, f"{clear} {more}", "duration == 40;"))
     assert found == []
     assert "cut" in fates
