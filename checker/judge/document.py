@@ -15,7 +15,7 @@ from runtime.executive.record import (
 
 
 def value_data(value: Value) -> Any:
-    """A value as JSON: itself (endless: `"inf"`), `{"between": [lower, upper]}` (null: no bound) or `{"one_of": [...]}`."""
+    """A value as JSON: itself, {"between": [lower, upper]} (null: no bound), {"one_of": [...]}; "inf" where endless."""
     if isinstance(value, ValueRange):
         return {"between": [None if isinf(end) else end for end in value]}
     if isinstance(value, OpenValues):
