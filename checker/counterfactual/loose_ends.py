@@ -1,7 +1,8 @@
 """Candidates in, loose ends out, the likeliest first: where a line of a rule may be missing, though nothing was flown.
 
 A variable that too few lines speak of is one, and so is a constant that somebody declared and nothing reads: it is
-missed in the rule that its name speaks of. A constant that lines read and nothing sets may be any number.
+missed in the rule that its name speaks of. A constant that lines read and nothing sets may be any number, and so may
+a local variable.
 """
 
 import re
@@ -20,7 +21,7 @@ _NOT_LOCAL = 2.0  # how much farther off a parameter counts than a local variabl
 _SET_ELSEWHERE = 3.0  # how much farther off a variable is that other rules set
 _UNEVEN = -2.5  # and what only one branch of a condition sets
 _UNREAD = -4.0  # and a constant that bears the name of a rule: it seldom is declared for nothing
-_UNSET = -3.0  # and a constant that nothing sets
+_UNSET = -3.0  # and a constant or local variable that nothing sets
 _UNPLACED = 3.0  # of one whose rule its name does not tell
 
 _BARE = re.compile(r"\w+\s+\w+\s*;")  # a declaration without a value
@@ -71,9 +72,12 @@ def _unread(sites: Sequence[EditSite], near: dict[EditSite, Candidate], usage: U
 
 
 def _unset(sites: Sequence[EditSite], near: dict[EditSite, Candidate], usage: Usage) -> Iterator[tuple[float, Loose]]:
-    """The numbers that lines read and nothing sets, each where it is declared."""
+    """The numbers and local variables that lines read and nothing sets, each where it is declared."""
     lines = Counter(one.named for one in sites if one.is_number)
     for site in sites:
+        if usage.mentions.is_open(site):
+            candidate = near.get(site) or Candidate(site, _UNPLACED, Suspicion.DEPENDENCE)
+            yield candidate.far + _UNSET, Loose(candidate, site.text.split()[1].rstrip(";"), is_unset=True)
         is_bare = _BARE.fullmatch(site.text) is not None
         if site in near and site.is_number and is_bare and lines[site.named] == 1 and not usage.is_idle(site.named):
             yield near[site].far + _UNSET, Loose(near[site], site.named, is_unset=True)

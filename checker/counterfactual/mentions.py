@@ -15,6 +15,7 @@ _PATH = re.compile(r"[A-Za-z_]\w*(?:\.\w+)*")
 _DECLARED = re.compile(r"\w+\s+(\w+)\s*(?:=(.*))?;", re.DOTALL)
 _SET = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==")
 _END = re.compile(r"\b(?:start|end)\b")
+_LABELLED = re.compile(r"\(\s*([A-Za-z_][\w.]*)\s+(\w+)\s*\)")
 _LOCAL, _CHILD = 1.5, 0.5  # what a mention of a local variable counts, and of a parameter of another token
 _NAMING = (EditKind.NAME, EditKind.POINT, EditKind.TOKEN)
 _OWN_END = ("end", "duration")
@@ -33,10 +34,14 @@ class Mentions:
         self._called: dict[object, Counter[str]] = defaultdict(Counter)  # by constraints, which may set them too
         self._declared: dict[str, set[str]] = defaultdict(set)
         self._of_rule: dict[str, Counter[str]] = defaultdict(Counter)
+        self._predicates: dict[object, dict[str, str]] = defaultdict(dict)  # of the tokens of a rule, by their labels
+        self._own: dict[str, set[str]] = defaultdict(set)  # what the rules of a predicate set themselves
         for site in sites:
             if not site.rule or site.is_rule:
                 continue
             scope, text, skipped = _scope(site), compared(site.text), 0
+            for predicate, label in _LABELLED.findall(text):
+                self._predicates[scope][label] = predicate.rpartition(".")[2]
             declared = _DECLARED.fullmatch(text)
             if declared is not None:
                 self._locals[scope].add(declared.group(1))
@@ -48,6 +53,7 @@ class Mentions:
             elif (first := _SET.match(text)) is not None:
                 skipped = first.end()
                 self._set[scope][first.group(1)] += 1
+                self._own[site.rule.rpartition(".")[2]].add(first.group(1))
             for name in _PATH.findall(text, skipped):
                 self._read[scope][name] += 1
                 self._called[scope][name] += skipped == 0 and _CALL.match(text) is not None
@@ -63,6 +69,15 @@ class Mentions:
         """1 where another line of the rule has the old value of a condition too, less 1 where one has the new value."""
         read = self._read[_scope(site)]
         return (read[edit.old] > 1) - (read[edit.new] > 0)
+
+    def is_open(self, site: EditSite) -> bool:
+        """Whether a line declares a local variable that other lines of its rule read and none sets."""
+        declared = _DECLARED.fullmatch(site.text) if site.rule and not site.is_rule else None
+        if declared is None or declared.group(2) is not None:
+            return False
+        scope, name = _scope(site), declared.group(1)
+        is_set = self._set[scope][name] or self._called[scope][name]
+        return bool(self._read[scope][name]) and not is_set
 
     def unsets(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether nothing sets a variable of a rule any more that a line has set."""
@@ -87,8 +102,13 @@ class Mentions:
         Half as much where a line then speaks of starts alone, or of ends.
         """
         new = site.after(edit)
-        gain = float(_is_alike(new) - _is_alike(site.text))
+        gain = float((_is_alike(new) and not self._is_own(edit.new, site)) - _is_alike(site.text))
         return gain or 0.5 * (_is_of_one_end(new) - _is_of_one_end(site.text)) * (edit.kind is EditKind.POINT)
+
+    def _is_own(self, name: str, site: EditSite) -> bool:
+        """Whether a name is a parameter of a token that the rules of the token set themselves."""
+        label, _, parameter = name.partition(".")
+        return parameter in self._own.get(self._predicates[_scope(site)].get(label, ""), ())
 
     def _weight(self, name: str, site: EditSite) -> float:
         """What a mention counts: nobody declares a variable for nothing, others may care for a token's parameters."""
@@ -106,6 +126,8 @@ class Mentions:
             return read <= but or set_by + read <= 1 + but
         if name in _OWN_END:
             return sum(self._of_rule[site.rule][one] for one in _OWN_END) <= but
+        if self._is_own(name, site):
+            return False
         is_variable = "." in name or name in self._declared[site.rule]
         return is_variable and self._of_rule[site.rule][name] <= but
 

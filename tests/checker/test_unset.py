@@ -1,4 +1,4 @@
-"""A constant that was given no value is named where it is declared, and one with a value is not."""
+"""What was given no value is named where it is declared: a constant, or a local variable that lines read."""
 
 from pathlib import Path
 
@@ -29,3 +29,42 @@ def test_a_constant_without_a_value_is_named_where_it_is_declared(tmp_path: Path
     candidates = [Candidate(site, 0.25, Suspicion.CONFLICT) for site in sites]
     found = loose_ends(Dependence((), sites), candidates, usage_of(sites))
     assert [(one.candidate.site.first, one.variable) for one in found if one.is_unset] == [(1, "LONG")]
+
+
+LOCALS = """class T extends Timeline { predicate P { float a; float b; } }
+T::P {
+    float lost;
+    float kept;
+    float idle;
+    kept == 2.0 * b;
+    a == lost + kept;
+}
+"""
+
+
+def test_a_local_variable_that_lines_read_and_none_sets_is_named(tmp_path: Path) -> None:
+    (tmp_path / "m.nddl").write_text(LOCALS, encoding="utf-8")
+    sites = sites_of(load_graph(tmp_path / "m.nddl", ()))
+    found = loose_ends(Dependence((), sites), (), usage_of(sites))
+    assert [(one.candidate.site.first, one.variable) for one in found if one.is_unset] == [(3, "lost")]
+
+
+STEPS = """class Motion extends Timeline { predicate Step { float x; float x1; float y1; } }
+Motion::Step {
+    float px;
+    meets(object.Step next);
+    next.x == x1;
+    px == x + 2.0;
+    x1 == px;
+    y1 == 2.0 * px;
+}
+"""
+
+
+def test_a_parameter_that_its_own_rule_sets_is_not_missed_by_the_rule_before(tmp_path: Path) -> None:
+    (tmp_path / "m.nddl").write_text(STEPS, encoding="utf-8")
+    sites = sites_of(load_graph(tmp_path / "m.nddl", ()))
+    usage = usage_of(sites)
+    line = next(one for one in sites if one.text == "x1 == px;")
+    fitness = {edit.new: usage.fitness(edit, line) for edit in line.edits if edit.old == "px"}
+    assert fitness["next.x1"] <= 0.0
