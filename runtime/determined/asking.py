@@ -13,6 +13,7 @@ from runtime.determined.tags import (
     WISH_FROM,
     WISH_LEAST,
     WISH_MOST,
+    WISH_PREDICATE,
     WISH_UNTIL,
 )
 
@@ -35,6 +36,7 @@ def ask(machine: Machine, wanted: Ask) -> None:
     """Have a machine start a token as soon as it may."""
     state, n, line = machine.present.state, machine.lines, wanted.line
     state[WISH * n + line] = wanted.block
+    state[WISH_PREDICATE * n + line] = machine.tables.block_predicate[wanted.block]
     state[WISH_FROM * n + line], state[WISH_UNTIL * n + line] = _bounds(wanted.start)
     state[WISH_END_FROM * n + line], state[WISH_END_UNTIL * n + line] = _bounds(wanted.end)
     state[WISH_LEAST * n + line], state[WISH_MOST * n + line] = _bounds(wanted.duration)

@@ -3,7 +3,7 @@
 cimport cython
 
 cdef long long NONE, FAR, PAIRS, PREDICATE, START, SLOT, LEAST, MOST, FOLLOWER, OWNER, ENDING, DUE, WISH, WISH_FROM
-cdef long long WISH_UNTIL, WISH_END_FROM, WISH_END_UNTIL, WISH_LEAST, WISH_MOST, BEFORE, SECTIONS
+cdef long long WISH_UNTIL, WISH_END_FROM, WISH_END_UNTIL, WISH_LEAST, WISH_MOST, BEFORE, WISH_PREDICATE, SECTIONS
 
 
 cdef class Present:
@@ -21,7 +21,7 @@ cdef class Present:
 
     cpdef bint begin_tick(self, long long tick) except -1
 
-    cpdef bint end_with(self, long long i) except -1
+    cpdef bint end_with(self, long long i, long long first) except -1
 
     cpdef bint is_kept(self, long long at) except -1
 

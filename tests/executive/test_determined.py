@@ -150,6 +150,27 @@ def test_state_that_is_carried_from_the_token_before() -> None:
     agree(steps(fire, GoalConfiguration("tank", "Firing", 20, False, (24.0, 30.0))))
 
 
+SLIT = """
+class Slit extends AgentTimeline {
+  predicate Closed { } predicate Opening { } predicate Open { } Slit(Mode m) { super(m, "Closed"); }
+}
+class Lamp extends AgentTimeline { predicate Off { } predicate On { } Lamp(Mode m) { super(m, "Off"); } }
+Slit::Opening { duration == 9; meets(Open open); }
+Slit::Open { duration >= 20; duration <= 90; starts(Lamp.On on); on.end == end; }
+Slit slit = new Slit(Internal); Lamp lamp = new Lamp(Internal); close();
+"""
+
+
+@pytest.mark.parametrize(("timeline", "predicate"), [("slit", "Open"), ("lamp", "On")])
+@pytest.mark.parametrize(("at", "start"), [(0, (10, 80)), (3, (4, 80)), (8, (9, 12)), (8, (13, 60)), (9, (11, 60))])
+def test_what_is_asked_for_and_what_a_rule_begins_are_merged_by_the_planner(
+    timeline: str, predicate: str, at: int, start: tuple[float, float]
+) -> None:
+    opening = GoalConfiguration("slit", "Opening", 0, False, (1, 5))
+    asked = GoalConfiguration(timeline, predicate, at, False, start)
+    agree(Case((simulator("psim", SLIT, "slit lamp"),), (opening, asked), until=120))
+
+
 def test_what_is_asked_with_a_range_is_left_to_the_general_engine() -> None:
     goal = GoalConfiguration("helm", "Run", 3, False, (5.0, 9.0), None, None, (("v", (1.0, 2.0)), ("n", 2)))
     agree(steps(goal))
