@@ -11,9 +11,13 @@ from runtime.executive.trace import Trace
 
 @dataclass(frozen=True, slots=True)
 class Input:
-    """An observation, a request or a recall (by number) at a tick; `is_early`: before the tick was synchronised."""
+    """An observation, a request or a recall (by number) at a tick; `is_early`: before the tick was synchronised.
+
+    What has the same `step` was taken in together, in one step of deliberation.
+    """
 
     tick: int
+    step: int
     is_early: bool
     what: "Observation | Request | int"
 
@@ -23,11 +27,12 @@ class Inputs:
     """All of them, oldest first."""
 
     received: list[Input] = field(default_factory=list)
+    step: int = 0  # how many steps of deliberation have been made
     is_fresh: bool = False  # something has come in that nobody has looked at
 
     def note(self, tick: int, is_early: bool, what: "Observation | Request | int") -> None:
         """Note an observation, a request, or the number of a request that is taken back."""
-        self.received.append(Input(tick, is_early, what))
+        self.received.append(Input(tick, self.step, is_early, what))
         self.is_fresh = True
 
 
@@ -44,6 +49,7 @@ class ShadowReactor:
         self.inputs = inputs
         self.given = 0  # how much of what came in it has been given
         self.tick = 0
+        self.step = 0  # the step in which what it was given last was taken in
         self.is_synchronised = False  # whether it stands behind the present of `tick`
 
     def catch_up(self, until: int, is_synchronised: bool) -> None:
@@ -68,16 +74,21 @@ class ShadowReactor:
         """Let the reactor plan, and go on to the next tick at which it has something to do."""
         reactor, tick = self.reactor, self.tick
         self._give(False)
-        while reactor.step(tick):
-            pass
-        self._check(reactor.failure())
-        reactor.recalls()
-        reactor.requests(tick)
-        reactor.refusals()
+        self._plan()
         reactor.due = reactor.next_tick(tick)
         following = [each.tick for each in self.inputs.received[self.given : self.given + 1]]
         self.tick = max(tick + 1, min([reactor.due, until, *following]))
         self.is_synchronised = False
+
+    def _plan(self) -> None:
+        """Let the reactor plan until it has finished, as one step of the register machine does."""
+        reactor = self.reactor
+        while reactor.step(self.tick):
+            pass
+        self._check(reactor.failure())
+        reactor.recalls()
+        reactor.requests(self.tick)
+        reactor.refusals()
 
     def _check(self, failure: Failure | None) -> None:
         if failure is not None:
@@ -85,12 +96,16 @@ class ShadowReactor:
             raise _CatchUpError(f"`{name}` fails at tick {self.tick}: {failure.code} {why}")
 
     def _give(self, is_early: bool) -> None:
-        """Give what came in at this tick, before or after it was synchronised."""
+        """Give what came in at this tick, before or after it was synchronised; what came in later steps comes later."""
         received = self.inputs.received
         while self.given < len(received):
             one = received[self.given]
             if one.tick != self.tick or one.is_early != is_early:
                 break
+            if one.step != self.step and not is_early:
+                if self.given > 0 and received[self.given - 1].tick == self.tick:
+                    self._plan()
+                self.step = one.step
             self.given += 1
             if isinstance(one.what, Observation):
                 self.reactor.notify(one.what)

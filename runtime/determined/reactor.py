@@ -190,6 +190,7 @@ class DeterminedReactor(TeleoReactor):
             elif self.machine.why == STOPS:  # what the last tick has left half done is taken back
                 self._forget_ahead(tick)
                 self.machine.run(tick, self.reached, 0)
+            self.inputs.step += 1
         return self.general is not None and self.general.step(tick)
 
     def _take_requests(self, tick: int) -> None:

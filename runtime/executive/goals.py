@@ -44,6 +44,10 @@ class Goals:
 
     # ---- taking in ----
 
+    def has_news(self, reach: int) -> bool:
+        """Whether there is something to take in that may start by `reach`, or to take back."""
+        return bool(self.to_recall) or any(request.start[0] <= reach for request in self.waiting)
+
     def take_in(self, tick: int, reach: int) -> bool:
         """Carry out recalls, and post what may start by `reach`, earliest first; whether the plan has changed."""
         self.is_changed = False
@@ -51,7 +55,7 @@ class Goals:
             numbers, self.to_recall = self.to_recall, []
             for number in numbers:
                 self._recall(number, tick)
-        if any(request.start[0] <= reach for request in self.waiting):
+        if self.has_news(reach):
             due = [request for request in self.waiting if request.start[0] <= reach]
             self.waiting = [request for request in self.waiting if request.start[0] > reach]
             for request in sorted(due, key=lambda one: one.start[0]):

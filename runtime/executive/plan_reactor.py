@@ -279,7 +279,17 @@ class PlanReactor(TeleoReactor):
         return self.max_steps is not None and self.decisions_made >= self.max_steps
 
     def step(self, tick: int) -> bool:
-        """Take in requests, or make one decision inside the planning window; when nothing is left, keep the plan."""
+        """Take in requests, or make one decision inside the planning window; when nothing is left, keep the plan.
+
+        Who looks one tick ahead makes all its decisions in one step: what is asked meanwhile comes after them.
+        """
+        while self._advance(tick):
+            if self.lookahead > 1:
+                return True
+        return False
+
+    def _advance(self, tick: int) -> bool:
+        """Make one decision; whether there is more to do."""
         if self.broken is not None:
             return False
         if self.planner.is_fresh:
@@ -295,7 +305,7 @@ class PlanReactor(TeleoReactor):
         if outcome == EPISODE_DONE:
             self._rest(tick)
             self.goals.report_rejected(tick)
-            return False
+            return self.goals.has_news(tick + self.reach)  # what was asked meanwhile is planned at the same tick
         if outcome == EPISODE_TOO_DEEP:
             what = Reason(ReasonKind.DEPTH, limit=self.planner.max_depth)
             self.broken = Failure("F5", what, self.internal, None, self.relaxes)

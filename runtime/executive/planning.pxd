@@ -8,7 +8,7 @@ from runtime.solver.flaws.filters cimport PlanningScope
 from runtime.solver.search cimport Solver
 
 cdef long long EXHAUSTED, FLAG_REJECTABLE, INACTIVE, LISTS, LIST_THREAT, _MOST_EXPLAINED, _MOST_STEPS, _NEVER
-cdef long long _NO_LIMIT, PLAN, ROLE_LOCAL, ROLE_TOKEN
+cdef long long _NO_LIMIT, PLAN, ROLE_LOCAL, ROLE_TOKEN, SPAN_CLOCK
 
 
 cdef class _Window(PlanningScope):
@@ -24,6 +24,8 @@ cdef class _Window(PlanningScope):
 
     @cython.locals(bench=Workbench, o="long long", start="long long")
     cpdef bint may_begin(self, long long t) except -1
+
+    cpdef bint begins_in_time(self, long long t) except -1
 
     @cython.locals(rows=Rows)
     cpdef bint _is_left_over(self, long long t) except -1

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from runtime.executive.outcome import Conflict, Deadlock, Reason, ReasonKind
 from runtime.executive.story import SearchLog, conflict_of
+from runtime.executive.view import SPAN_CLOCK
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, LIST_THREAT, LISTS, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.configuration.configuration import Configuration, FlawFilter, Match
@@ -76,6 +77,10 @@ class _Window(PlanningScope):
             return True  # of the time before the mission nothing is known
         o = bench.object_of(t)
         return o not in bench.internal_objects and o not in bench.external_objects
+
+    def begins_in_time(self, t: int) -> bool:
+        """Whether the rules of `t`, which have just fired, leave it a time to begin; if not, that is a conflict."""
+        return self.may_begin(t) or self.bench.at_least(self.bench.start(t), self.tick, SPAN_CLOCK, t)
 
     def _is_left_over(self, t: int) -> bool:
         """Whether `t` is undecided, and no goal, or active without a place in a sequence."""

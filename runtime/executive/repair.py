@@ -22,6 +22,9 @@ def relax(
         happened, uses = past.outlines(tick), past.uses(tick)
         over = [token for token in bench.all_tokens() if bench.is_over(token, tick) and not bench.is_kept(token)]
         forgotten = [token for token in over if token not in present]
+        # What asked for these may have been archived.
+        met = [line.current for line in timelines if not line.is_internal and line.current != NOTHING]
+        forgotten += [token for token in met if token not in seen.values() and bench.is_nobodys(token)]
         for token in forgotten:
             bench.recorder.detach(token)
         bench.remove(forgotten)

@@ -247,6 +247,10 @@ class PlanView:
         """The token of the plan that `t` is, or is merged into."""
         return self.rows.merged_into[t] if self.rows.status[t] == MERGED else t
 
+    def is_nobodys(self, t: int) -> bool:
+        """Whether the token is neither an observation nor a goal, and the one that asked for it is gone."""
+        return self.rows.parent[t] == NONE and not self.is_fact(t) and not self.is_goal(t)
+
     def predicate_of(self, t: int) -> int:
         """The predicate of a token."""
         return self.rows.predicate[t]

@@ -2,7 +2,7 @@
 
 import pytest
 
-from runtime.executive.configuration import AgentConfiguration, ReactorConfiguration
+from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ReactorConfiguration
 from runtime.executive.draws import Draws, World
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.planning import Planner
@@ -13,7 +13,7 @@ from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import PlanDatabase
 from runtime.solver.configuration.configuration import default_configuration
-from tests.executive.flying import flown, history, program, simulator
+from tests.executive.flying import flown, history, planner, program, simulator
 from tests.executive.test_equal_runs import toy
 
 METRONOME = """
@@ -129,6 +129,26 @@ def test_what_is_over_leaves_numbers_as_they_are_whose_last_places_exceed_the_to
         assert float(line.partition("w=")[2].rstrip(")")) == pytest.approx(y, rel=1e-12)
         y = y * 3.0 + y * 3.0 * 2.0 * 0.1
     assert y > 1e14
+
+
+def test_what_was_asked_for_goes_in_a_repair_also_when_who_asked_was_archived() -> None:
+    # What two tasks ask for overlaps: as the second is refused, the first is under way, and its task in the archive.
+    arm, job = (
+        f"class {name} extends AgentTimeline {{ predicate Rest {{ }} predicate {what} {{ int n; }} "
+        f'{name}(Mode m) {{ super(m, "Rest"); }} }}'
+        for name, what in (("Arm", "Act"), ("Job", "Do"))
+    )
+    rule = "Job::Do { duration >= 4; any(Arm.Act a); end + 2 <= a.start; a.start <= end + 9; a.n == n; }"
+    user = f"{arm} {job} {rule} Job job = new Job(Internal); Arm arm = new Arm(External); close();"
+    owner = f"{arm} Arm::Act {{ duration == n + 4; }} Arm arm = new Arm(Internal); close();"
+    goals = tuple(
+        GoalConfiguration("job", "Do", start=start, duration=(4, 19), parameters=(("n", n),))
+        for start, n in (((6, 6), 3), ((10, 10), 2), ((17, 32), 3))
+    )
+    flyers = (planner("plan", user, "job", "arm", latency=1, lookahead=5), simulator("sim", owner, "arm"))
+    flight = flown(*flyers, until=60, goals=goals)
+    assert flight.report.holds
+    assert [line for line in history(flight.outcome, "arm") if "Act" in line] == ["18 Act(n=2)", "38 Act(n=3)"]
 
 
 class Hoarder(Workbench):

@@ -98,3 +98,17 @@ def test_nothing_is_put_where_the_past_is_forgotten() -> None:
         goals=(GoalConfiguration("user", "Busy", start=(3, 3), mandatory=True),),
     )
     assert outcome.abort is not None and outcome.abort.reactor == "user"
+
+
+def test_what_its_own_rules_leave_only_the_past_is_not_begun() -> None:
+    # Two makes overlap. That the second would have begun at 22 shows when its length is known, at 23; steps end there.
+    task = (
+        'class Task extends AgentTimeline { predicate Idle { } predicate Do { } Task(Mode m) { super(m, "Idle"); } }'
+        'class Job extends AgentTimeline { predicate Free { } predicate Make { } Job(Mode m) { super(m, "Free"); } }'
+        "Task::Do { duration == 4; any(Job.Make a); a.start == start; any(Job.Make b); b.end == start + 5; }"
+        "Job::Make { duration == 3; } Task task = new Task(Internal); Job job = new Job(Internal); close();"
+    )
+    goals = tuple(GoalConfiguration("task", "Do", start=(start, start)) for start in (20, 40))
+    flight = flown(planner("plan", task, "task job", latency=1, lookahead=60, max_steps=1), until=60, goals=goals)
+    assert flight.report.holds, [disagreement_text(one) for one in flight.report.disagreements]
+    assert lines(flight.outcome, "abort")[0].endswith("no place for Job.Make#13")

@@ -1,8 +1,10 @@
 """What becomes of requests that owners refuse, give up or take up again."""
 
+import pytest
+
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
 from runtime.executive.outcome import EventKind
-from tests.executive.flying import Flyer, fly, history, lines, open_goals, planner, simulator
+from tests.executive.flying import Flyer, flown, fly, history, lines, open_goals, planner, simulator
 
 ARM = (
     'class Arm extends AgentTimeline { predicate Rest { } predicate Act { int n; } Arm(Mode m) { super(m, "Rest"); } }'
@@ -38,6 +40,21 @@ def test_a_rejected_goal_comes_back_when_there_is_room() -> None:
     outcome = fly(planner("plan", text, "task"), until=30, goals=(first, second))
     assert lines(outcome, "reject")[0].startswith("0 reject plan task Do(n=2)")
     assert open_goals(outcome) != []
+
+
+@pytest.mark.parametrize("compiles", [False, True])
+def test_what_is_asked_of_who_is_planning_is_answered_at_the_same_tick(compiles: bool) -> None:
+    # At tick 25 the mission file asks the arm for eight ticks, and the task that is to end by 32 for seven.
+    arm = simulator("sim", f"{ARM} Arm::Act {{ duration == n + 5; }} Arm arm = new Arm(Internal); close();", "arm")
+    user = task("Task::Do { duration >= 3; duration <= 9; meets(Arm.Act a); a.n == n; }")
+    goals = (
+        GoalConfiguration("task", "Do", start=(23, 23), parameters=(("n", 2),)),
+        GoalConfiguration("arm", "Act", at=25, start=(26, 30), parameters=(("n", 3),)),
+    )
+    flight = flown(user, arm, until=40, goals=goals, compiles=compiles)
+    assert flight.report.holds
+    assert [line.partition(":")[0] for line in lines(flight.outcome, "reject")] == ["25 reject sim arm Act(n=2)"]
+    assert flight.outcome.abort is not None and flight.outcome.abort.code == "F6"
 
 
 def test_the_goal_of_a_planner_whose_middle_gives_up_is_not_achieved() -> None:

@@ -19,6 +19,8 @@ cdef class PlanningScope:
 
     cpdef bint may_begin(self, long long t) except -1
 
+    cpdef bint begins_in_time(self, long long t) except -1
+
     cpdef bint admits_variable(self, long long v) except -1
 
 

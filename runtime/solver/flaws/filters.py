@@ -31,6 +31,10 @@ class PlanningScope:
         """Whether token `t` has not begun, as far as its times say: else none but facts may be put before it."""
         return t >= 0
 
+    def begins_in_time(self, t: int) -> bool:
+        """Whether the rules of token `t`, which have just fired, leave it a time to begin; else that is a conflict."""
+        return t >= 0
+
     def admits_variable(self, v: int) -> bool:
         """Whether variable `v` may be decided; asked again when its domain or its token's times change."""
         return v >= 0

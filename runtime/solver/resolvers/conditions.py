@@ -134,8 +134,8 @@ def _mend_by_activating(agenda: Agenda, stack: Decisions, d: int, t: int) -> int
     """Activate a token, or have the next action support it; `cursor` counts the ways tried."""
     if not _may_become(agenda, t, SYMBOL_ACTIVE):
         return NO_CHOICE
-    is_fact = agenda.rows.flags[t] & FLAG_FACT
-    if agenda.filters.has_scope and not is_fact and not agenda.filters.scope.may_begin(t):
+    is_bounded = agenda.filters.has_scope and not agenda.rows.flags[t] & FLAG_FACT
+    if is_bounded and not agenda.filters.scope.may_begin(t):
         return NO_CHOICE  # a dead end asks for the times of a token that is in scope
     way = stack.cursor[d] + 1
     code = agenda.table.handler_code[stack.handler[d]]
@@ -154,7 +154,9 @@ def _mend_by_activating(agenda: Agenda, stack: Decisions, d: int, t: int) -> int
     if agenda.probing:
         return APPLIED
     stack.choose(d, way)
-    return APPLIED if activate(agenda.plan, t, NONE) else FAILED_CHOICE
+    if not activate(agenda.plan, t, NONE):
+        return FAILED_CHOICE
+    return FAILED_CHOICE if is_bounded and not agenda.filters.scope.begins_in_time(t) else APPLIED
 
 
 def _has_insertion(agenda: Agenda, stack: Decisions, d: int, t: int) -> bool:

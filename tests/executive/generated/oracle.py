@@ -280,8 +280,9 @@ class Oracle:
         failed = any(each[-1].predicate == "Failed" for name, each in self.held.items() if name in used)
         if code == "F8" and not failed:
             self.say(event, "F8, and nothing has failed")
-        given_up = [one for one in self.asked.values() if one.sender == reactor.name]
-        if code == "F6" and all(one.refused is None and one.rejected is None for one in given_up):
+        mine = [one for one in self.asked.values() if one.sender == reactor.name]
+        given_up = [one for one in mine if one.refused is not None or one.rejected is not None]
+        if code == "F6" and not given_up and not any(self.owner(one.line).name in self.lost for one in mine):
             self.say(event, "F6, and nothing was given up")
         if code == "F5" and reactor.max_steps is None:
             self.say(event, "F5 without a limit")
