@@ -170,7 +170,7 @@ class Present:
         return True
 
     def end_with(self, i: int, first: int) -> bool:
-        """End the token of a timeline now, with all that must end with it, none before `first`; false if one may not."""
+        """End the token of a timeline now, with all that must end with it, none before `first`; false if it cannot."""
         n = self.lines
         # What has started at this tick (2) neither ends nor has others end.
         for j in range(n):
