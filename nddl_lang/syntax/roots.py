@@ -1,19 +1,24 @@
 """Tell among files which are models of their own, and which are parts that others include."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from pathlib import Path
 
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_text, real_path
 
 _INCLUDE = re.compile(r'^[ \t]*#include[ \t]*"([^"\n]+)"', re.MULTILINE)
+_Listing = Callable[[Path], list[Path]]  # the models in a folder
 
 
 def roots_among(files: Sequence[Path], directories: Sequence[Path] = ()) -> list[Path]:
     """The files that no other one includes; of files that include each other in a cycle, the first."""
     by_key = {real_path(file): file for file in files}
-    included = {key: [each for each in _included(file, directories) if each in by_key] for key, file in by_key.items()}
+    listed = cache(_models_in)
+    included = {
+        key: [each for each in _included(file, directories, listed) if each in by_key] for key, file in by_key.items()
+    }
     parts = {target for targets in included.values() for target in targets}
     roots = [key for key in by_key if key not in parts]
     reached: set[Path] = set()
@@ -37,12 +42,13 @@ def parts_of(models: Sequence[Path], directories: Sequence[Path] = ()) -> frozen
 
 def _closure(files: Sequence[Path], directories: Sequence[Path]) -> set[Path]:
     """Files and all that they include, directly or not."""
+    listed = cache(_models_in)
     included: dict[Path, list[Path]] = {}
     pending = list(files)
     while pending:
         key = pending.pop()
         if key not in included:
-            included[key] = _included(key, directories)
+            included[key] = _included(key, directories, listed)
             pending += included[key]
     return set(included)
 
@@ -58,7 +64,7 @@ def _reached(files: Sequence[Path], included: Mapping[Path, Sequence[Path]]) -> 
     return reached
 
 
-def _included(file: Path, directories: Sequence[Path]) -> list[Path]:
+def _included(file: Path, directories: Sequence[Path], listed: _Listing) -> list[Path]:
     """The files that a file includes itself, resolved: of each name the first that exists."""
     found: list[Path] = []
     if not _is_file(file):
@@ -66,7 +72,7 @@ def _included(file: Path, directories: Sequence[Path]) -> list[Path]:
     for name in _INCLUDE.findall(_text(file)):
         places = (place / name for place in (file.parent, *directories) if "\0" not in name)
         target = next((real_path(path) for path in places if _is_file(path)), None)
-        if target is None and "\0" not in name and (meant := model_meant(name, file.parent)):
+        if target is None and "\0" not in name and (meant := _meant(name, file.parent, None, listed)):
             target = real_path(file.parent / meant)  # a misspelt include makes no model of its own of what was meant
         if target is not None and target != real_path(file):
             found.append(target)
@@ -89,12 +95,16 @@ def _text(file: Path) -> str:
 
 def model_meant(name: str, folder: Path, library: Path | None = None) -> str | None:
     """The model in the folder of an including text, or of the library, that the name of a missing file stands for."""
+    return _meant(name, folder, library, _models_in)
+
+
+def _meant(name: str, folder: Path, library: Path | None, listed: _Listing) -> str | None:
     try:
-        found = _models_in(folder / Path(name).parent)
+        found = listed(folder / Path(name).parent)
     except ValueError:  # a name that no file can have
         return None
     if library is not None and Path(name).name == name:
-        found += _models_in(library)
+        found = [*found, *listed(library)]
     stems = [path.stem for path in found]
     meant = Path(name).stem if Path(name).stem in stems else nearest(Path(name).stem, stems)
     return None if meant is None else str(Path(name).parent / f"{meant}.nddl")

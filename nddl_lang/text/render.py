@@ -7,6 +7,7 @@ from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note, Severity
 from nddl_lang.text.excerpt import around, excerpt
 from nddl_lang.text.source import Source, Span
 
+_NEAR = 500  # characters of a long line beside a mend
 _RESET = "\x1b[0m"
 _BOLD = "\x1b[1m"
 _GUTTER = "\x1b[1;34m"
@@ -75,16 +76,18 @@ class _Page:
         safety = "" if fix.safe else " (check the meaning)"
         yield self._paint(f"help: {fix.title}{safety}", _BOLD)
         for source, edits in _by_source(fix.edits):
-            first = source.locate(min(edit.span.begin for edit in edits))[0]
-            last = source.locate(max(edit.span.finish for edit in edits))[0]
-            start = source.line_starts[first - 1]
-            end = start + sum(len(source.line(number)) + 1 for number in range(first, last + 1)) - 1
-            end = max(end, max(edit.span.finish for edit in edits))
+            begin = min(edit.span.begin for edit in edits)
+            finish = max(edit.span.finish for edit in edits)
+            first, last = source.locate(begin)[0], source.locate(finish)[0]
+            # Of a line that is very long only what is near is looked at: there may be as many mends as it has words.
+            start = max(source.line_starts[first - 1], begin - _NEAR)
+            end = max(min(_end_of_line(source, last), finish + _NEAR), finish)
             after = apply_edits(source.text[start:end], edits, start)
             yield self._bar()
-            edited = min(edit.span.begin for edit in edits) - start  # in the first line
-            for number in range(first, last + 1):
-                yield self._changed(number, "-", source.line(number), _RED, edited if number == first else 0)
+            edited = begin - start  # in the first line
+            before = source.text[start:end].split("\n")
+            for offset, line in enumerate(before[: last + 1 - first]):
+                yield self._changed(first + offset, "-", line.removesuffix("\r"), _RED, 0 if offset else edited)
             for offset, line in enumerate(after.split("\n") if after else []):
                 yield self._changed(first + offset, "+", line.removesuffix("\r"), _GREEN, 0 if offset else edited)
 
@@ -100,6 +103,12 @@ class _Page:
 
     def _paint(self, text: str, colour: str) -> str:
         return f"{colour}{text}{_RESET}" if self._colour else text
+
+
+def _end_of_line(source: Source, number: int) -> int:
+    """Where a line ends, without its line end."""
+    starts = source.line_starts
+    return starts[number] - 1 if number < len(starts) else len(source.text)
 
 
 def _by_source(edits: tuple[Edit, ...]) -> list[tuple[Source, list[Edit]]]:

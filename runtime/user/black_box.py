@@ -22,6 +22,7 @@ _PAGE = 4096
 _STATE, _LIMIT, _EXCUSED, _LEAVING, _LENGTH, _TEXT = range(6)
 _BEGUN, _ENDED = 256 + 1, 256 - 1
 _WORD = 8
+_PATIENCE, _STILL = 500, 5  # looks, a hundredth of a second apart, for an answer, and of those at one that is whole
 _SLACK = 3.5  # seconds beyond the limit: those who look inside the process come first
 _FRAME = re.compile(r'^  File "(.*)", line (\d+) in ', re.MULTILINE)
 _ASK = getattr(signal, "SIGUSR2", None)
@@ -148,9 +149,12 @@ class BlackBox:
         before = os.fstat(self._file).st_size
         if _ASK is not None:
             os.kill(process, _ASK)
-            for _ in range(50):
+            size, still = before, 0
+            for _ in range(_PATIENCE):  # the answer comes in pieces, on a busy machine late
                 signal.sigtimedwait((), 0.01)
-                if os.fstat(self._file).st_size > before:
+                known, size = size, os.fstat(self._file).st_size
+                still = still + 1 if before < size == known else 0
+                if still == _STILL:
                     break
         title, line, files = self._code()
         return stopped(place_in(self._frames(), files, line), title, self._words[_LIMIT] / 1000)

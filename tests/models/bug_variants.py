@@ -16,6 +16,16 @@ class Case:
 
 
 @dataclass(frozen=True, slots=True)
+class Mechanism:
+    """How a mistake shows: failure codes, who gives up on which timeline, the token that the last repair is about."""
+
+    code: str
+    reactor: str
+    timeline: str
+    broke: str
+
+
+@dataclass(frozen=True, slots=True)
 class Variant:
     """A mistake, and the cases in which it must show and must not."""
 
@@ -23,6 +33,7 @@ class Variant:
     title: str
     folder: Path
     mission: str
+    shows: Mechanism
     edits: tuple[tuple[str, str, str], ...]
     fails: tuple[Case, ...]
     passes: tuple[Case, ...]
@@ -36,6 +47,7 @@ def read_variant(file: Path) -> Variant:
         data["title"],
         file.parent,
         data["mission"],
+        Mechanism(**data["shows"]),
         tuple((edit["file"], edit["old"], edit["new"]) for edit in data["edit"]),
         tuple(_case(one) for one in data.get("fails", [])),
         tuple(_case(one) for one in data.get("passes", [])),
