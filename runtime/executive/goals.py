@@ -11,6 +11,7 @@ from runtime.executive.timelines import NOTHING, Goal, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.view import SPAN_REQUEST
 from runtime.executive.workbench import Workbench
+from runtime.plan.tags import INFINITY
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,14 +197,24 @@ class Goals:
                 goal.is_rejected = False
                 self.given_up.pop(goal.request.number, None)
 
+    def next_expiry(self) -> float:
+        """The first tick at which a goal that is rejected can begin no more, and does not come back."""
+        return min(
+            (self.bench.upper(self.bench.start(goal.token)) for goal in self.posted if self._may_come_back(goal)),
+            default=INFINITY,
+        )
+
+    def _may_come_back(self, goal: Goal) -> bool:
+        is_rejected = goal.is_rejected and not goal.is_closed and self.bench.is_alive(goal.token, goal.token_key)
+        return is_rejected and self.bench.is_rejected(goal.token)
+
     def reopen(self) -> bool:
         """Let the planner look again at goals that it rejected: there may be room now."""
         found = False
         for goal in self.live():
-            if goal.is_rejected and self.bench.is_alive(goal.token, goal.token_key):
-                if self.bench.is_rejected(goal.token):
-                    self.bench.cancel(goal.token)
-                    found = True
+            if self._may_come_back(goal):
+                self.bench.cancel(goal.token)
+                found = True
         self.is_changed = self.is_changed or found
         return found
 

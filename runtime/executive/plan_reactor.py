@@ -112,6 +112,7 @@ class PlanReactor(TeleoReactor):
         if self.is_stirred or self.is_out_of_steps():
             return tick + 1
         soonest = min(self.draws.next_change(bench, tick), next_reading(bench, tick), self.final_tick)
+        soonest = min(soonest, self.goals.next_expiry())
         for request in self.goals.waiting:
             soonest = min(soonest, request.start[0] - self.reach)
         for line in self.timelines:
