@@ -20,15 +20,19 @@ _NAME = re.compile(r"[A-Za-z][\w.-]*")
 
 @click.command()
 @click.argument("name")
+@click.argument("more", nargs=-1, metavar="")
 @click.option(
     "--template", type=click.Choice(TEMPLATES), help="What to begin with; by default what NAME says, or survey."
 )
-def command(name: str, template: str | None) -> int:
+def command(name: str, more: tuple[str, ...], template: str | None) -> int:
     """Begin a project: a model, its simulator and a mission, in the new folder NAME.
 
     survey has a fault on purpose, which the tutorial finds and mends; all others hold. From battery on they are the
     recipes of the cookbook, one each. Nothing that exists is written over.
     """
+    if more:
+        meant = f"nddlc new {more[0]} --template {name}" if name in TEMPLATES else f"nddlc new {name}"
+        raise Unusable(f"a project has one name, `{' '.join(more)}` is too much", f"`{meant}` makes one")
     folder = Path(name)
     if _NAME.fullmatch(folder.name) is None:
         raise Unusable(

@@ -66,3 +66,9 @@ def test_a_folder_that_cannot_be_made_is_told(capsys: Captured) -> None:
     Path("file").write_text("")
     assert run(["new", "file/mine"]) == 2
     assert "cannot make" in capsys.readouterr().err
+
+
+def test_a_template_in_front_of_the_name_is_told_how_it_is_asked_for(capsys: Captured) -> None:
+    assert run(["new", "survey", "boat"]) == 2
+    assert "nddlc new boat --template survey" in capsys.readouterr().err
+    assert not Path("survey").exists()

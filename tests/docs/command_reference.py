@@ -69,7 +69,7 @@ def _man() -> Iterator[str]:
 
 
 def _usage(ctx: click.Context) -> str:
-    return " ".join([ctx.command_path, *ctx.command.collect_usage_pieces(ctx)])
+    return " ".join([ctx.command_path, *ctx.command.collect_usage_pieces(ctx)]).rstrip()
 
 
 def _help(command: click.Command) -> str:
