@@ -14,6 +14,7 @@
 #   make truths       conditions of models whose truth is known, each on FRESH (2000) fresh missions
 #   make kills        KILLS (20) batches killed by SIGKILL and as many by SIGTERM, resumed, beside undisturbed ones
 #   make agents       AGENTS (500) random missions of random reactors, flown in every way and put to an oracle of their traces
+#   make variants     the eight mistakes of models/auv/bugs, each explained
 #   make mutants      MUTANTS (2000) faulty missions, flown compiled, interpreted and by the general engine, and judged
 #   make renames      rename every name of every model, and compare what the models mean
 #   make editor-proof EXAMPLES (100000) scripts of keystrokes beside a cold start, as many edits and hostile messages;
@@ -42,7 +43,7 @@ TICKING := $(BIN)/python build_backend/ticking.py
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study truths kills mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study truths kills variants mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -139,6 +140,9 @@ KILLS := 20
 
 kills: build
 	NDDLC_KILLS=$(KILLS) $(BIN)/python -m pytest -q -rP tests/checker/test_interrupt.py -k killed
+
+variants: build
+	NDDLC_VARIANTS=1 $(BIN)/python -m pytest -q tests/models/test_variants_explained.py
 
 mutants: build
 	$(BIN)/python -m tests.executive.mutants.campaign $(MUTANTS)

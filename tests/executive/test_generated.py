@@ -12,8 +12,8 @@ from tests.executive.generated.flights import lines_of, loaded
 from tests.executive.generated.oracle import Oracle
 from tests.executive.generated.writer import random_agent
 
-# Agents that once flew wrongly: an end that could not be outwaited, two goals alike, a recall before its time; a rejected
-# goal that expires while its owner sleeps, a request that comes while its owner plans, a command whose task is archived.
+# Agents that once flew wrongly: an end that could not be outwaited, two goals alike, a recall before its time; a
+# rejected goal that expires while its owner sleeps, a request while its owner plans, a command whose task is archived.
 MENDED = (56, 75, 201, 456, 15, 578, 139, 202)
 TASK = (
     'class Task extends AgentTimeline { predicate Idle { } predicate Do { int n; } Task(Mode m) { super(m, "Idle"); } }'
