@@ -79,7 +79,7 @@ def _report(name: str, flight: Flight) -> str:
         f"rejected {counts[EventKind.REJECT]}, refused {counts[EventKind.REFUSE]}, "
         f"recalled {counts[EventKind.RECALL]}; repairs {counts[EventKind.RELAX]}\n"
     )
-    lines += [f"  open: {goal_text(goal)}{_so_far(goal, events)}\n" for goal in outcome.open_goals]
+    lines += [f"  open: {goal_text(goal)}{_so_far(goal, outcome.events)}\n" for goal in outcome.open_goals]
     if judgement.verdict is not Verdict.PASS:
         places = [one.place for one in lines_that_rule_out(failed_by(outcome)) if one.place is not None]
         if places:

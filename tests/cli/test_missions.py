@@ -118,6 +118,20 @@ def test_a_goal_that_nothing_ends_is_told_so(
     assert "open: Fetch: its time to be sent had not come\n" in said
 
 
+def test_a_goal_that_a_determined_simulator_has_begun_is_told_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run(["new", "deadline"]) == 0
+    simulator, mission = tmp_path / "deadline" / "simulator.nddl", tmp_path / "deadline" / "mission.toml"
+    simulator.write_text(simulator.read_text().replace("duration == heating + 30;", "duration >= heating;"))
+    text = mission.read_text().replace('"lab"\npredicate = "Analyse"', '"oven"\npredicate = "Bake"')
+    mission.write_text("\n".join(line for line in text.splitlines() if not line.startswith("end = ")))
+    capsys.readouterr()
+    assert run(["run", "deadline/mission.toml"]) == 1
+    assert "open: Bake: it began at tick 10, and nothing has ended it\n" in capsys.readouterr().out
+
+
 PROPERTY = """
 [[property]]
 name = "never on a leg"
