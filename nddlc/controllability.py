@@ -9,7 +9,6 @@ from checker.controllability.dynamic import offending_cycle
 from checker.controllability.static import is_strongly_controllable, is_weakly_controllable
 from checker.excerpts import Excerpts
 from checker.mission import LARGEST_SEED
-from checker.proofs.certify import TooManyTokensError
 from checker.proofs.rendering import control_data, control_lines
 from checker.proofs.uncertain import plan_networks, requests_flown
 from nddl_lang.text.values import json_text
@@ -35,11 +34,8 @@ def command(path: str | None, seed: int | None, style: str, is_trusted: bool) ->
     """
     _, mission, models = prepare(mission_here(path), is_trusted=is_trusted)
     certifier = certifier_of(models, mission.check.seed if seed is None else seed)
-    try:
-        if not certifier.find_structure():
-            raise Unusable("none of the missions flown passes, so there is no plan to look at")
-    except TooManyTokensError as found:
-        raise Unusable(str(found)) from None
+    if not certifier.find_structure():
+        raise Unusable(certifier.excess or "none of the missions flown passes, so there is no plan to look at")
     excerpts = Excerpts(Path(models.agent.root))
     answers: list[dict[str, Any]] = []
     lines: list[str] = []

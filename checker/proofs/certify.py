@@ -37,13 +37,6 @@ _MOST_TOKENS = 10_000  # of a flight that is told to z3; some half a minute
 _UNSEEN = "but for points within a billionth of a limit, where doubles round"
 
 
-class TooManyTokensError(Exception):
-    """A flight has more tokens than z3 is told of."""
-
-    def __init__(self, count: int) -> None:
-        super().__init__(f"a flight has {count} tokens, more than the {_MOST_TOKENS} that are followed")
-
-
 class Certainty(Enum):
     """What was found."""
 
@@ -90,6 +83,7 @@ class Certifier:
         self.dated: list[Dated] = []
         self.base: Point | None = None
         self.flights = 0
+        self.excess = ""  # why a flight that passes has given no structure
 
     # ---- the whole box ----
 
@@ -99,18 +93,14 @@ class Certifier:
             return self._unknown(f"`{self.box.computed[0]}` is computed from other parameters")
         if self.agent.coded:
             return self._unknown(f"`{self.agent.coded[0].name}` is written in Python")
-        try:
-            return self._certified(corners)
-        except TooManyTokensError as found:
-            return self._unknown(str(found))
-
-    def _certified(self, corners: bool) -> Certificate:
         for point in self._first_points(corners):
             failed = self._flown(point)
             if failed is not None:
                 return self._refuted(point, failed)
         seen: list[Point] = []
         while len(self.structures) <= _MOST_STRUCTURES:
+            if self.excess:
+                return self._unknown(self.excess)
             answer = self.broken(self.box.sides, avoiding=seen)
             if answer is None:
                 return self._unknown("z3 gave up within its limit")
@@ -141,12 +131,9 @@ class Certifier:
         return self._answer(Certainty.CERTIFIED, why=_UNSEEN if has_gaps else "")
 
     def find_structure(self) -> bool:
-        """Fly the middle of the box, else points drawn evenly, until a mission passes.
-
-        TooManyTokensError if that is too large to be told to z3.
-        """
+        """Fly the middle of the box, else points drawn evenly, until a mission passes; whether there is a structure."""
         points = (self.box.middle(), *self.box.drawn(_MOST_CORNERS, 0))
-        return any(self._flown(point) is None for point in points)
+        return any(self._flown(point) is None for point in points) and bool(self.structures)
 
     def records_over_the_box(self) -> Iterator[MissionRecord]:
         """Fly the middle, the corners (up to 64) and 8 points drawn evenly: what was executed, passing or not."""
@@ -174,7 +161,8 @@ class Certifier:
             return None
         count = sum(len(each.tokens) for each in record.reactors)
         if count > _MOST_TOKENS:
-            raise TooManyTokensError(count)
+            self.excess = f"a flight has {count} tokens, more than the {_MOST_TOKENS} that are followed"
+            return None
         structure = structure_of(self.agent, self.programs, record)
         for name, variables in structure.draws.items():
             structure.values.update(dict.fromkeys(variables, point[name]))

@@ -62,6 +62,14 @@ def survey(folder: Path, text: str) -> Path:
     return path
 
 
+def test_flights_too_large_for_z3_refute_and_certify_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("checker.proofs.certify._MOST_TOKENS", 5)
+    assert certifier(MODELS / "gps" / "mission.toml").certify().certainty is Certainty.REFUTED
+    mended = certifier(MODELS / "gps" / "mended.toml").certify()
+    assert mended.certainty is Certainty.UNKNOWN
+    assert "more than the 5 that are followed" in mended.why
+
+
 def test_a_refutation_fails_when_flown_and_names_line_and_parameters() -> None:
     found = (proof := certifier(MODELS / "gps" / "mission.toml")).certify()
     assert found.certainty is Certainty.REFUTED
