@@ -75,9 +75,9 @@ def _unset(sites: Sequence[EditSite], near: dict[EditSite, Candidate], usage: Us
     """The numbers and local variables that lines read and nothing sets, each where it is declared."""
     lines = Counter(one.named for one in sites if one.is_number)
     for site in sites:
-        if usage.mentions.is_open(site):
+        if name := usage.mentions.unset_local(site):
             candidate = near.get(site) or Candidate(site, _UNPLACED, Suspicion.DEPENDENCE)
-            yield candidate.far + _UNSET, Loose(candidate, site.text.split()[1].rstrip(";"), is_unset=True)
+            yield candidate.far + _UNSET, Loose(candidate, name, is_unset=True)
         is_bare = _BARE.fullmatch(site.text) is not None
         if site in near and site.is_number and is_bare and lines[site.named] == 1 and not usage.is_idle(site.named):
             yield near[site].far + _UNSET, Loose(near[site], site.named, is_unset=True)

@@ -70,14 +70,14 @@ class Mentions:
         read = self._read[_scope(site)]
         return (read[edit.old] > 1) - (read[edit.new] > 0)
 
-    def is_open(self, site: EditSite) -> bool:
-        """Whether a line declares a local variable that other lines of its rule read and none sets."""
+    def unset_local(self, site: EditSite) -> str:
+        """The local variable that a line declares, if other lines of its rule read it and none sets it; else empty."""
         declared = _DECLARED.fullmatch(site.text) if site.rule and not site.is_rule else None
         if declared is None or declared.group(2) is not None:
-            return False
+            return ""
         scope, name = _scope(site), declared.group(1)
         is_set = self._set[scope][name] or self._called[scope][name]
-        return bool(self._read[scope][name]) and not is_set
+        return name if self._read[scope][name] and not is_set else ""
 
     def unsets(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether nothing sets a variable of a rule any more that a line has set."""

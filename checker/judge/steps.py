@@ -199,7 +199,6 @@ def _check(post: Post, meaning: Meaning, names: VariableNames) -> Step:
 def _two(post: Post, meaning: Meaning, names: VariableNames) -> Step:
     first, second = _reads(post, names)
     determined = Determined(post, names)
-    tokens = names.tokens_in(post.operands)
 
     def step(frame: BodyFrame) -> None:
         a, b = first(frame), second(frame)
@@ -212,9 +211,9 @@ def _two(post: Post, meaning: Meaning, names: VariableNames) -> Step:
             if frame.choosing is not None:
                 determined.infer(frame, [a, b])
             elif determined.is_left_open(frame, [a, b]):
-                _refuse(frame, post, [a, b], names, tokens, LEFT_OPEN)
+                _refuse(frame, post, [a, b], names, LEFT_OPEN)
         else:
-            _refuse(frame, post, [a, b], names, tokens)
+            _refuse(frame, post, [a, b], names)
 
     return step
 
@@ -222,7 +221,6 @@ def _two(post: Post, meaning: Meaning, names: VariableNames) -> Step:
 def _many(post: Post, meaning: Meaning, names: VariableNames) -> Step:
     reads = _reads(post, names)
     determined = Determined(post, names)
-    tokens = names.tokens_in(post.operands)
 
     def step(frame: BodyFrame) -> None:
         values = [read(frame) for read in reads]
@@ -235,9 +233,9 @@ def _many(post: Post, meaning: Meaning, names: VariableNames) -> Step:
             if frame.choosing is not None:
                 determined.infer(frame, values)
             elif determined.is_left_open(frame, values):
-                _refuse(frame, post, values, names, tokens, LEFT_OPEN)
+                _refuse(frame, post, values, names, LEFT_OPEN)
         else:
-            _refuse(frame, post, values, names, tokens)
+            _refuse(frame, post, values, names)
 
     return step
 
@@ -246,14 +244,13 @@ def _check_loose(post: Post, meaning: Meaning, names: VariableNames) -> Step:
     reads = _reads(post, names)
     fixed = [k for k, operand in enumerate(post.operands) if not is_range(operand)]
     determined = Determined(post, names)
-    tokens = names.tokens_in(post.operands)
 
     def step(frame: BodyFrame) -> None:
         values = [read(frame) for read in reads]
         bench = frame.bench
         answer = meaning(*values)
         if answer is False:
-            _refuse(frame, post, values, names, tokens)
+            _refuse(frame, post, values, names)
         elif answer or not any(is_open(values[k]) for k in fixed):
             bench.judged += 1
         else:
@@ -269,11 +266,9 @@ def _refuse(
     post: Post,
     values: list[Value],
     names: VariableNames,
-    tokens: frozenset[int],
     said: tuple[str, str] = ("it holds", "it does not"),
 ) -> None:
-    """Tell that a constraint does not hold of `values`, in which variables of `tokens` occur."""
-    for tok in [frame.tokens[each] for each in tokens]:
+    for tok in [frame.tokens[each] for each in names.tokens_in(post.operands)]:
         if tok is not None and tok is not frame.tok and tok.is_outdated:
             frame.bench.skip(CUT_OFF)
             return

@@ -85,6 +85,7 @@ class RunReader:
         objects: Mapping[str, ObjectRecord],
         values: dict[str, Value],
         redrawn: frozenset[str],
+        draws: dict[str, dict[str, None]],
     ) -> None:
         self.names = names
         self.symbols = symbols
@@ -94,7 +95,7 @@ class RunReader:
         self.values = values
         self.redrawn = redrawn
         self.untold: dict[str, int] = {}
-        self.draws: dict[str, list[str]] = {}  # variables of each sampled parameter that was read
+        self.draws = draws  # the variables of each sampled parameter that was read are added
         self.slots: dict[int, Number] = {}
         self.loops: dict[int, str] = {}  # slots of loops, with the object they stand at
         self.keys: dict[int, int] = {}
@@ -226,9 +227,7 @@ class RunReader:
         value = _sampled(
             sample.parameter, f"{self.reactor}:{self.token_name}" if sample.parameter in self.redrawn else ""
         )
-        drawn = self.draws.setdefault(sample.parameter, [])
-        if name_of(value) not in drawn:
-            drawn.append(name_of(value))
+        self.draws.setdefault(sample.parameter, {}).setdefault(name_of(value))
         known = z3.ToInt(value) if z3.is_int(target) else value
         yield self._demand("eq", (target, known), target == known, sample.span)
 

@@ -186,6 +186,11 @@ def _static(is_strong: bool, is_weak: bool | None) -> str:
     return f"not strongly, {known}" if is_weak is not None else f"not strongly; {known}"
 
 
+def _known(holds: bool | None, plan: PlanNetwork) -> bool | None:
+    """An answer that may not hold if requests are missing in the network."""
+    return None if plan.endless and holds else holds
+
+
 def control_data(
     plan: PlanNetwork, cycle: tuple[object, ...] | None, excerpts: Excerpts, *, is_strong: bool, is_weak: bool | None
 ) -> dict[str, Any]:
@@ -193,9 +198,9 @@ def control_data(
     spans = [each.span for each in _cycle(cycle or ()) if isinstance(each, Demand) and each.span is not None]
     return {
         "reactor": plan.reactor,
-        "dynamic": (None if plan.endless else True) if cycle is None else False,
-        "strong": None if plan.endless and is_strong else is_strong,
-        "weak": None if plan.endless and is_weak else is_weak,
+        "dynamic": _known(cycle is None, plan),
+        "strong": _known(is_strong, plan),
+        "weak": _known(is_weak, plan),
         "durations": [
             {"token": each.token, "between": [each.lower, each.upper], "after": each.after} for each in plan.durations
         ],

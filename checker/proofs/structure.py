@@ -32,7 +32,7 @@ class Structure:
     times: list[tuple[str, str, str]] = field(default_factory=list)  # start, end and duration of each token
     asked: list[tuple[str, str, str]] = field(default_factory=list)  # reactor, variables and name of what it asked for
     earliest: dict[str, int] = field(default_factory=dict)  # starts that the mission file asks for
-    draws: dict[str, list[str]] = field(default_factory=dict)  # variables of each sampled parameter
+    draws: dict[str, dict[str, None]] = field(default_factory=dict)  # variables of each sampled parameter
     untold: dict[str, int] = field(default_factory=dict)
     symbols: Symbols = field(default_factory=Symbols)
 
@@ -95,7 +95,14 @@ class _ReactorReader:
         predicates = {key: self.flown[to].predicate for key, to in standing.items() if to in self.flown}
         objects = {each.name: each for each in self.record.objects}
         reader = RunReader(
-            self.names, self.symbols, self.configuration.name, predicates, objects, self.found.values, self.redrawn
+            self.names,
+            self.symbols,
+            self.configuration.name,
+            predicates,
+            objects,
+            self.found.values,
+            self.redrawn,
+            self.found.draws,
         )
         program = self.names.program
         self._add(reader.bare(program.script, NOBODY))
@@ -106,9 +113,6 @@ class _ReactorReader:
                 self._add(reader.follow(program.rules[run.rule].body, run, token.key))
         for name, count in reader.untold.items():
             self.found.untold[name] = self.found.untold.get(name, 0) + count
-        for parameter, drawn in reader.draws.items():
-            known = self.found.draws.setdefault(parameter, [])
-            known += [name for name in drawn if name not in known]
         self._alias(standing)
         self._order()
 

@@ -4,10 +4,11 @@ How long such a token may take is the range of what its owner makes of the sampl
 flight shows one branch of the owner's rules: what other flights show beside it counts, too.
 """
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import ceil, floor, inf, isinf
+from math import ceil, floor, isinf
 
 import z3
 
@@ -65,16 +66,25 @@ def requests_flown(agent: AgentConfiguration, record: MissionRecord) -> Flown:
     }
     found: dict[_Request, tuple[int, int]] = {}
     for configuration, reactor in zip(agent.reactors, record.reactors, strict=True):
-        counts: dict[str, int] = {}
-        for token in sorted(reactor.tokens, key=lambda one: one.start if isinstance(one.start, int) else inf):
-            asked = token.origin != "observation" and str(token.object) in configuration.external
-            if not asked or token.state != "active" or not isinstance(token.start, int):
-                continue
-            number = counts[token.predicate] = counts.get(token.predicate, 0) + 1
-            end = done.get((owners.get(str(token.object), ""), str(token.object), token.start))
+        asked = [
+            (token.start, token.predicate, str(token.object))
+            for token in reactor.tokens
+            if token.origin != "observation" and str(token.object) in configuration.external
+            if token.state == "active" and isinstance(token.start, int)
+        ]
+        for request, start, line in _numbered(configuration.name, asked):
+            end = done.get((owners.get(line, ""), line, start))
             if end is not None:
-                found[configuration.name, token.predicate, number] = (token.start, end)
+                found[request] = (start, end)
     return found
+
+
+def _numbered(reactor: str, asked: Iterable[tuple[int, str, str]]) -> Iterator[tuple[_Request, int, str]]:
+    """Starts, predicates and what else is told of requests, in the order of time, counted by predicate."""
+    counts: Counter[str] = Counter()
+    for start, predicate, more in sorted(asked):
+        counts[predicate] += 1
+        yield (reactor, predicate, counts[predicate]), start, more
 
 
 def plan_networks(
@@ -112,7 +122,8 @@ class _Builder:
         durations = []
         endless = []
         asked = [each for each in self.structure.asked if each[0] == self.reactor]
-        self.requests = dict(self._numbered(asked))
+        begun = [(self._flown(each + ".start"), name.partition("#")[0], each) for _, each, name in asked]
+        self.requests = {variable: request for request, _, variable in _numbered(self.reactor, begun)}
         for number, (_, variable, name) in enumerate(asked):
             taken = self._taken(variable, name, asked[:number] + asked[number + 1 :])
             if taken is None:
@@ -125,14 +136,6 @@ class _Builder:
             if own and len(own) == len(names) and any(name.endswith((*_POINTS, _LENGTH)) for name in own):
                 self._demand(demand)
         return PlanNetwork(self.reactor, self.network, tuple(durations), self.left_out, tuple(endless))
-
-    def _numbered(self, asked: Iterable[tuple[str, str, str]]) -> Iterator[tuple[str, _Request]]:
-        """What was asked for by variable, as other flights know it."""
-        counts: dict[str, int] = {}
-        for _, variable, name in sorted(asked, key=lambda one: self._flown(one[1] + ".start")):
-            predicate = name.partition("#")[0]
-            counts[predicate] = counts.get(predicate, 0) + 1
-            yield variable, (self.reactor, predicate, counts[predicate])
 
     def _flown(self, name: str) -> int:
         value = self.structure.values[name]

@@ -72,7 +72,7 @@ def _included(file: Path, directories: Sequence[Path], listed: _Listing) -> list
     for name in _INCLUDE.findall(_text(file)):
         places = (place / name for place in (file.parent, *directories) if "\0" not in name)
         target = next((real_path(path) for path in places if _is_file(path)), None)
-        if target is None and "\0" not in name and (meant := _meant(name, file.parent, None, listed)):
+        if target is None and "\0" not in name and (meant := model_meant(name, file.parent, None, listed)):
             target = real_path(file.parent / meant)  # a misspelt include makes no model of its own of what was meant
         if target is not None and target != real_path(file):
             found.append(target)
@@ -93,12 +93,16 @@ def _text(file: Path) -> str:
         return ""
 
 
-def model_meant(name: str, folder: Path, library: Path | None = None) -> str | None:
+def _models_in(folder: Path) -> list[Path]:
+    """The models in a folder, in the order of their names; none where it cannot be read."""
+    try:
+        return sorted(path for path in folder.iterdir() if path.suffix == ".nddl")
+    except (OSError, ValueError):
+        return []
+
+
+def model_meant(name: str, folder: Path, library: Path | None = None, listed: _Listing = _models_in) -> str | None:
     """The model in the folder of an including text, or of the library, that the name of a missing file stands for."""
-    return _meant(name, folder, library, _models_in)
-
-
-def _meant(name: str, folder: Path, library: Path | None, listed: _Listing) -> str | None:
     try:
         found = listed(folder / Path(name).parent)
     except ValueError:  # a name that no file can have
@@ -108,11 +112,3 @@ def _meant(name: str, folder: Path, library: Path | None, listed: _Listing) -> s
     stems = [path.stem for path in found]
     meant = Path(name).stem if Path(name).stem in stems else nearest(Path(name).stem, stems)
     return None if meant is None else str(Path(name).parent / f"{meant}.nddl")
-
-
-def _models_in(folder: Path) -> list[Path]:
-    """The models in a folder, in the order of their names; none where it cannot be read."""
-    try:
-        return sorted(path for path in folder.iterdir() if path.suffix == ".nddl")
-    except (OSError, ValueError):
-        return []

@@ -81,7 +81,7 @@ class _Page:
             first, last = source.locate(begin)[0], source.locate(finish)[0]
             # Of a line that is very long only what is near is looked at: there may be as many mends as it has words.
             start = max(source.line_starts[first - 1], begin - _NEAR)
-            end = max(min(_end_of_line(source, last), finish + _NEAR), finish)
+            end = max(min(source.line_end(last), finish + _NEAR), finish)
             after = apply_edits(source.text[start:end], edits, start)
             yield self._bar()
             edited = begin - start  # in the first line
@@ -103,12 +103,6 @@ class _Page:
 
     def _paint(self, text: str, colour: str) -> str:
         return f"{colour}{text}{_RESET}" if self._colour else text
-
-
-def _end_of_line(source: Source, number: int) -> int:
-    """Where a line ends, without its line end."""
-    starts = source.line_starts
-    return starts[number] - 1 if number < len(starts) else len(source.text)
 
 
 def _by_source(edits: tuple[Edit, ...]) -> list[tuple[Source, list[Edit]]]:

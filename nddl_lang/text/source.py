@@ -29,11 +29,13 @@ class Source:
         line = bisect_right(self.line_starts, offset)
         return line, offset - self.line_starts[line - 1] + 1
 
+    def line_end(self, number: int) -> int:
+        """Where line `number` (from 1) ends: at its line feed, or with the text."""
+        return self.line_starts[number] - 1 if number < len(self.line_starts) else len(self.text)
+
     def line(self, number: int) -> str:
         """The text of line `number` (from 1) without its line end."""
-        start = self.line_starts[number - 1]
-        end = self.line_starts[number] - 1 if number < len(self.line_starts) else len(self.text)
-        return self.text[start:end].removesuffix("\r")
+        return self.text[self.line_starts[number - 1] : self.line_end(number)].removesuffix("\r")
 
 
 class Anchor:

@@ -17,12 +17,16 @@ class Case:
 
 @dataclass(frozen=True, slots=True)
 class Mechanism:
-    """How a mistake shows: failure codes, who gives up on which timeline, the token that the last repair is about."""
+    """How a mistake shows: failure codes, who gives up on which timeline, the token that the last repair is about.
+
+    `rejects` is the timeline of what is rejected before that, if something is.
+    """
 
     code: str
     reactor: str
     timeline: str
     broke: str
+    rejects: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,83 +6,29 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
-from checker.mission import read_mission
-from checker.models import load_models
 from nddlc.validate import command
-from runtime.executive.mission import record_mission
-from tests.programs import programs_of
+from runtime.executive.configuration import GoalConfiguration
+from tests.executive.flying import Flown, flown, planner, simulator
 
-ROAD = """#include "TREX.nddl"
+BATTERY = Path(__file__).parents[3] / "models" / "templates" / "battery"
+ROAD = """
 int PAUSE = 10;
 class Truck extends AgentTimeline {
-    predicate Parked { }
-    predicate Drive { float metres; }
-    predicate Turn { }
-    Truck(Mode m) { super(m, "Parked"); }
+    predicate Parked { } predicate Drive { float metres; } predicate Turn { } Truck(Mode m) { super(m, "Parked"); }
 }
-class Run extends AgentTimeline {
-    predicate None { }
-    predicate Clear { }
-    Run(Mode m) { super(m, "None"); }
-}
-"""
-DRIVER = """
-Reservoir tank = new Reservoir(1.0, 0.0, 5.0);
-Run run = new Run(Internal);
-Truck truck = new Truck(External);
-close();
-"""
-WORLD = """#include "road.nddl"
-Truck::Drive { %s }
-Truck::Turn { duration == 36; }
-Truck truck = new Truck(Internal);
-close();
-"""
-MISSION = """[mission]
-name = "turn"
-final_tick = 300
-[[reactor]]
-name = "driver"
-model = "driver.nddl"
-latency = 1
-lookahead = 300
-internal = ["run"]
-external = ["truck"]
-[[reactor]]
-name = "world"
-model = "world.nddl"
-latency = 0
-lookahead = 1
-internal = ["truck"]
-[[goal]]
-timeline = "run"
-predicate = "Clear"
-start = [10, 40]
+class Run extends AgentTimeline { predicate None { } predicate Clear { } Run(Mode m) { super(m, "None"); } }
 """
 
 
-def written(folder: Path, clear: str, drive: str) -> Path:
-    """A mission whose driver's rule for `Clear` and whose truck's rule for `Drive` have these bodies."""
-    (folder / "road.nddl").write_text(ROAD, encoding="utf-8")
-    rule = f'#include "road.nddl"\n#include "Resources.nddl"\nRun::Clear {{ {clear} }}\n'
-    (folder / "driver.nddl").write_text(rule + DRIVER, encoding="utf-8")
-    (folder / "world.nddl").write_text(WORLD % drive, encoding="utf-8")
-    (folder / "mission.toml").write_text(MISSION, encoding="utf-8")
-    return folder / "mission.toml"
-
-
-def alarms(path: Path) -> tuple[list[str], set[str]]:
-    """What the judge says of a mission, and the fates of its tokens."""
-    mission, _ = read_mission(path)
-    assert mission is not None
-    agent = load_models(mission).agent
-    programs = programs_of(agent)
-    outcome, record = record_mission(agent, programs, 0)
-    report = judge_mission(agent, programs.programs, outcome, record, programs.constraints)
-    fates = {each.fate for reactor in record.reactors for each in reactor.tokens}
-    return [disagreement_text(one) for one in report.disagreements], fates
+def driven(clear: str, drive: str) -> Flown:
+    """A flight of a driver whose rule for `Clear`, and a truck whose rule for `Drive`, have these bodies."""
+    driver = f"{ROAD} Run::Clear {{ {clear} }} Run run = new Run(Internal); Truck truck = new Truck(External); close();"
+    rules = f"Truck::Drive {{ {drive} }} Truck::Turn {{ duration == 36; }}"
+    world = f"{ROAD} {rules} Truck truck = new Truck(Internal); close();"
+    goal = GoalConfiguration("run", "Clear", start=(10, 40))
+    flyers = (planner("driver", driver, "run", "truck", latency=1, lookahead=300), simulator("world", world, "truck"))
+    return flown(*flyers, until=300, goals=(goal,))
 
 
 OPEN = "float time; metres >= 0.5; metres <= 960.0; duration >= 20; duration <= 30; "
@@ -100,25 +46,25 @@ OPEN = "float time; metres >= 0.5; metres <= 960.0; duration >= 20; duration <= 
         "duration + 1.0 == metres + time;",
     ],
 )
-def test_an_argument_that_nobody_gave_may_stay_open_below_a_function(body: str, tmp_path: Path) -> None:
-    found, _ = alarms(written(tmp_path, "contains(Truck.Drive out); out.end == end;", OPEN + body))
-    assert found == []
+def test_an_argument_that_nobody_gave_may_stay_open_below_a_function(body: str) -> None:
+    flight = driven("contains(Truck.Drive out); out.end == end;", OPEN + body)
+    assert [disagreement_text(one) for one in flight.report.disagreements] == []
 
 
-def test_a_sum_with_what_a_repair_has_forgotten_binds_nobody(tmp_path: Path) -> None:
+def test_a_sum_with_what_a_repair_has_forgotten_binds_nobody() -> None:
     clear = "contains(Truck.Drive out); contains(Truck.Turn turn); out before turn;"
     more = "turn.start <= out.end + PAUSE; turn.duration <= 25; turn.end == end;"
-    found, fates = alarms(written(tmp_path, f"{clear} {more}", "duration == 40;"))
-    assert found == []
-    assert "cut" in fates
+    flight = driven(f"{clear} {more}", "duration == 40;")
+    assert [disagreement_text(one) for one in flight.report.disagreements] == []
+    assert any(each.fate == "cut" for reactor in flight.record.reactors for each in reactor.tokens)
 
 
 def test_a_record_with_endless_limits_is_written_and_read(tmp_path: Path) -> None:
-    path, record = written(tmp_path, "contains(Truck.Drive out);", "duration == 40;"), tmp_path / "record.json"
-    done = CliRunner().invoke(command, [str(path), "--record", str(record)], standalone_mode=False)
+    mission, record = BATTERY / "mission.toml", tmp_path / "record.json"
+    done = CliRunner().invoke(command, [str(mission), "--record", str(record)], standalone_mode=False)
     assert (done.exception, done.return_value) == (None, 0)
-    (driver, _) = json.loads(record.read_text(encoding="utf-8"))["reactors"]
-    assert "inf" in driver["members"]["tank"]
-    again = CliRunner().invoke(command, [str(record), "--mission", str(path)], standalone_mode=False)
+    members = [each["members"] for each in json.loads(record.read_text(encoding="utf-8"))["reactors"]]
+    assert any("inf" in values for each in members for values in each.values())
+    again = CliRunner().invoke(command, [str(record), "--mission", str(mission)], standalone_mode=False)
     assert (again.exception, again.return_value) == (None, 0)
     assert again.output == done.output
