@@ -30,6 +30,7 @@ _LEVEL = 0.5  # of what changes the level of a resource that rules something out
 _OUTSIDE = 3.0  # added where other lines contradict each other, whatever happens
 _TROUBLES = (EventKind.RELAX, EventKind.REJECT, EventKind.REFUSE, EventKind.KILL)
 _TELLING, _MOST_TOLD = 3.0, 0.6  # what a conflict tells of its lines together, and of one
+_ENDS = ("start", "end", "duration")
 _ANSWERS, _TIME = (EventKind.REJECT, EventKind.REFUSE), "start"
 _UNSEEN = 4.0  # added for lines of a rule that nothing fired
 
@@ -98,9 +99,13 @@ def candidates_of(
     answers = [*refusals(outcome), *((first,) if first is not None and first.kind in _ANSWERS else ())]
     asked |= {(event.predicate, _TIME) for event in answers}
     for token, variable in sorted(asked):
-        for number in graph.asking(token, variable):
-            if number not in roots or roots[number][0] > _OBSERVED:
-                roots[number] = (_OBSERVED, Suspicion.CONFLICT)
+        asking = dict.fromkeys(graph.asking(token, variable), _OBSERVED)
+        if variable in _ENDS:  # who asks for a time has it from the limits of its own token
+            rules = sorted({graph.sites[number].rule for number in asking})
+            asking |= {one: _OBSERVED + _STEP for rule in rules for one in graph.setting(rule, variable)} | asking
+        for number, far in asking.items():
+            if number not in roots or roots[number][0] > far:
+                roots[number] = (far, Suspicion.CONFLICT)
     for predicate in sorted(_tokens_in(outcome, failed, first)):
         for number in graph.of_resource(predicate):
             if number not in roots or roots[number][0] > _LEVEL:

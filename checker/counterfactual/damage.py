@@ -18,6 +18,16 @@ def damage_of(result: MissionResult) -> float:
     return 10.0 * goals + 1.0 * (losses.lost + losses.dropped) + 0.5 * losses.repaired
 
 
+def is_farther(result: MissionResult, failed: MissionResult) -> bool:
+    """Whether a mission that fails as well does so later in another way, or achieves more."""
+    if result.outcome is None or failed.outcome is None:
+        return False
+    achieved, before = (one.losses.count(GoalFate.ACHIEVED) for one in (result, failed))
+    is_other = result.judgement.code != failed.judgement.code
+    is_later = result.outcome.last_tick > failed.outcome.last_tick
+    return achieved > before or (achieved == before and is_other and is_later)
+
+
 def strayed_of(result: MissionResult, failed: MissionResult) -> float:
     """What a mission that passes no longer does of what the failed one did before it failed."""
     if result.outcome is None or failed.outcome is None:

@@ -105,6 +105,10 @@ class Mentions:
         gain = float((_is_alike(new) and not self._is_own(edit.new, site)) - _is_alike(site.text))
         return gain or 0.5 * (_is_of_one_end(new) - _is_of_one_end(site.text)) * (edit.kind is EditKind.POINT)
 
+    def makes_alike(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether both sides of `==` have one name after an edit, and had not before."""
+        return _is_alike(site.after(edit)) and not _is_alike(site.text)
+
     def _is_own(self, name: str, site: EditSite) -> bool:
         """Whether a name is a parameter of a token that the rules of the token set themselves."""
         label, _, parameter = name.partition(".")
@@ -135,6 +139,12 @@ class Mentions:
 def is_doubled(edit: SmallEdit, site: EditSite) -> bool:
     """Whether a name stands twice in a line, of which an edit takes one away."""
     return edit.kind in _NAMING and _PATH.findall(site.text).count(edit.old) > 1
+
+
+def leaves_one(edit: SmallEdit) -> bool:
+    """Whether a name stands in what an edit leaves out of an expression and in what it keeps."""
+    left_out = Counter(_PATH.findall(edit.old)) - Counter(_PATH.findall(edit.new))
+    return any(name in left_out for name in _PATH.findall(edit.new))
 
 
 def _scope(site: EditSite) -> object:

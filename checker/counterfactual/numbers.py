@@ -50,3 +50,8 @@ def octaves(edit: SmallEdit) -> float:
 def digits(number: str) -> int:
     """Significant digits: people choose round numbers."""
     return len(number.lstrip("-").replace(".", "").strip("0")) if "." in number else len(number.lstrip("-").rstrip("0"))
+
+
+def is_apart(one: SmallEdit, other: SmallEdit) -> bool:
+    """Whether two edits are not both about the number at one place."""
+    return one.kind not in NUMERIC or other.kind not in NUMERIC or one.begin != other.begin

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
+from checker.causes import failed_by
 from checker.counterfactual.candidates import candidates_of
 from checker.counterfactual.damage import HEAVY, damage_of
 from checker.counterfactual.dependence import Dependence
@@ -20,6 +21,7 @@ from checker.counterfactual.trials import Bounds, Missions, Trials, try_out
 from checker.coverage import Universe
 from checker.losses import Limit
 from checker.mission import Mission
+from checker.mutation.additions import with_additions
 from checker.mutation.edits import OUTSIDE, EditSite, SmallEdit, sites_of
 from checker.mutation.mission_edits import agent_with
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
@@ -28,6 +30,7 @@ from checker.proofs.places import text_of
 from checker.sampling.sampler import with_point
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.outcome import ElementKind
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -72,7 +75,7 @@ def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]
     for model in dict.fromkeys(each.model for each in agent.reactors):
         for site in sites_of(load_graph(root / model, overlay)):
             found.setdefault((site.file, site.first, site.text), site)
-    return list(found.values())
+    return with_additions(list(found.values()))
 
 
 def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
@@ -84,7 +87,10 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     graph = Dependence(world.programs, sites)
     sites_reached = Universe(world.programs).sites
     exercised = [site.span for number, site in enumerate(sites_reached) if number in missions.exercised]
-    usage = usage_of(sites, passing=missions.passing, is_late=outcome.abort is not None or bool(outcome.open_goals))
+    conflict = failed_by(outcome).conflict
+    is_level = conflict is not None and any(one.kind is ElementKind.RESOURCE for one in conflict.elements)
+    is_late = (outcome.abort is not None or bool(outcome.open_goals)) and not is_level
+    usage = usage_of(sites, passing=missions.passing, is_late=is_late)
     models = {each.model: program for each, program in zip(world.agent.reactors, world.programs, strict=True)}
     text = text_of(world.agent, models)
     candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties, exercised, text)

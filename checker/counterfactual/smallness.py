@@ -12,8 +12,11 @@ from dataclasses import dataclass
 
 from checker.counterfactual.affinity import WORD, Affinity, is_kin
 from checker.counterfactual.bounds import Directions, is_result_moved, sets_value
-from checker.counterfactual.mentions import Mentions, is_doubled
-from checker.counterfactual.numbers import NUMERIC, digits, is_farthest, is_raised, is_step, octaves
+from checker.counterfactual.formulas import Formulas
+from checker.counterfactual.mentions import Mentions, is_doubled, leaves_one
+from checker.counterfactual.numbers import NUMERIC, digits, is_apart, is_farthest, is_raised, is_step, octaves
+from checker.counterfactual.orders import Orders
+from checker.counterfactual.siblings import Siblings
 from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, sign_of, sort_of, sum_of
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit, inverse_of
 
@@ -22,6 +25,10 @@ _LABEL = re.compile(r"\s+(\w+)\s*\)")
 _LOOSE = "any"  # the relation that demands nothing
 _TERM, _TERM_SOON = 3.0, 0.9  # of a sum or product without a part, and when that is tried
 _REPEATED, _REPEATED_SOON = 0.5, -0.2  # the same where both parts are one name
+_ADDED, _ADDED_SOON = 2.0, -0.4  # of what nothing reads in a line that its name does not speak of; when else tried
+_SIBLING = 3.0  # of a name with which a line says of one axis what another says of another
+_MOST_SAID = 2.5  # by other lines for or against an expression
+_RECAST = 0.3  # how much later what no mutant makes is tried
 _UNEQUAL, _EQUAL = "!=", "=="
 _WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
 _MOST_FOLLOW_UPS = 3
@@ -85,6 +92,9 @@ class Usage:
     sums: Counter[tuple[str, str, str]]
     mentions: Mentions
     directions: Directions
+    formulas: Formulas
+    orders: Orders
+    siblings: Siblings
     passing: float = 0.0
 
     def is_swapped(self, edit: SmallEdit) -> bool:
@@ -101,6 +111,20 @@ class Usage:
         label = called.group(1) if called is not None else ""
         bears = is_kin(label, edit.new) - is_kin(label, edit.old)
         return _PRESENT * min(self.counts[edit.new], _MOST_PRESENT) + _CALLED * bears
+
+    def formula_odds(self, edit: SmallEdit, site: EditSite) -> float:
+        """Logarithm of how much likelier an expression is meant as it is than as an edit leaves it, within bounds."""
+        return max(min(self.formulas.odds(edit, site), _MOST_SAID), -_MOST_SAID)
+
+    def place_odds(self, edit: SmallEdit, site: EditSite) -> float:
+        """The same of the order of arguments or operands."""
+        odds = self.formulas.order_odds(edit, site) + self.formulas.odds(edit, site)
+        return max(min(odds, _MOST_SAID), -_MOST_SAID)
+
+    def is_wanted(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether what an edit adds is a variable of the rule, or bears the name of what the line is about."""
+        name = WORD.findall(edit.new)[-1]
+        return name not in self.named or self.affinity.is_about(name, site)
 
     def gain(self, edit: SmallEdit, site: EditSite) -> float:
         """How much better the new constant of a line belongs there than the old one."""
@@ -174,7 +198,9 @@ def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0, is_late: bool =
     named = {site.named for site in sites if site.named}
     mentions = Mentions(sites, named, counts)
     directions = Directions(sites, named, is_late=is_late)
-    return Usage(counts, named, kinds, meant, sampled, Affinity(sites, named), sums, mentions, directions, passing)
+    lines = (Formulas(sites, named), Orders(sites), Siblings(sites))
+    affinity = Affinity(sites, named)
+    return Usage(counts, named, kinds, meant, sampled, affinity, sums, mentions, directions, *lines, passing)
 
 
 def is_loosening(edit: SmallEdit, site: EditSite) -> bool:
@@ -186,12 +212,6 @@ def is_loosening(edit: SmallEdit, site: EditSite) -> bool:
         or (edit.kind is EditKind.RELATION and edit.new == _LOOSE)
         or (is_comparison and sign_of(edit.new) == _UNEQUAL)
     )
-
-
-def is_order_turned(edit: SmallEdit, site: EditSite) -> bool:
-    """Whether a relation of two named tokens says the same with the tokens swapped."""
-    is_between = edit.kind is EditKind.RELATION and edit.begin > site.begin
-    return is_between and edit.new == inverse_of(edit.old) != edit.old
 
 
 def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
@@ -208,6 +228,8 @@ def _structural(edit: SmallEdit, usage: Usage) -> float:
 
 def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     match edit.kind:
+        case EditKind.RELATION if usage.orders.rights(edit, site):
+            return 0.0
         case EditKind.RELATION | EditKind.COMPARISON | EditKind.SIGN:
             freed = _FREED * usage.mentions.frees(edit, site)
             return 1.0 + _UNUSUAL * usage.odds(edit, site) + freed
@@ -226,7 +248,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.MISSION if edit.old == "0":
             return 0.0  # a reactor that is asked for nothing
         case EditKind.ARGUMENTS if is_result_moved(edit, site):
-            return _RESULT
+            return _RESULT + usage.place_odds(edit, site)
         case EditKind.GOAL:
             return _WISHED
         case EditKind.PREDICATE if edit.old in EVENTS:
@@ -235,16 +257,24 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return 3.0 - usage.presence(edit, site)
         case EditKind.ARGUMENTS if "/" in edit.old:
             return 1.0 + _QUOTIENT
-        case EditKind.OPERATOR | EditKind.MISSION:
+        case EditKind.ARGUMENTS:
+            return 1.0 + usage.place_odds(edit, site)
+        case EditKind.OPERATOR | EditKind.FORMULA:
+            return 3.0 + usage.formula_odds(edit, site)
+        case EditKind.MISSING:
+            return _ADDED * (not usage.is_wanted(edit, site))
+        case EditKind.MISSION:
             return 3.0
         case EditKind.TERM:
-            return _REPEATED if _TWICE.fullmatch(edit.old) else _TERM
+            if _TWICE.fullmatch(edit.old):
+                return _REPEATED
+            return _TERM - _ALIKE * usage.mentions.makes_alike(edit, site) - _DOUBLED * leaves_one(edit)
         case EditKind.VALUE:
             is_case = edit.old not in TRUTHS and not site.text.endswith(";")
             cases = _CASE * usage.mentions.case_gain(edit, site) if is_case else 0.0
             return _VALUE + _LAST_CASE * usage.strands_value(edit, site) - cases
         case EditKind.NAME | EditKind.POINT | EditKind.TOKEN:
-            return 2.0 - usage.fitness(edit, site)
+            return 2.0 - usage.fitness(edit, site) - _SIBLING * usage.siblings.completes(edit, site)
         case _:
             return 1.0
 
@@ -264,6 +294,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     match edit.kind:
         case EditKind.MISSION:
             return -1.0 if edit.old == "0" else None  # tried last
+        case EditKind.NAME | EditKind.LIMIT if usage.siblings.completes(edit, site):
+            return -1.0  # seen without any flight
         case EditKind.GOAL | EditKind.PROMISE:
             return None
         case EditKind.LIMIT if usage.is_swapped(edit):
@@ -279,11 +311,17 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.ARGUMENTS if usage.directions.is_put_in_order(edit, site):
             return -1.0  # seen without any flight
         case EditKind.ARGUMENTS:
-            return _SWAPPED + _LATER * usage.passing + 0.5 * ("/" in edit.old)
-        case EditKind.OPERATOR:
-            return 0.5 + _LATER * usage.passing
+            odds = _UNUSUAL * usage.place_odds(edit, site)
+            return _SWAPPED + _LATER * usage.passing + 0.5 * ("/" in edit.old) + odds
+        case EditKind.OPERATOR | EditKind.FORMULA:
+            rare = _RECAST * (edit.kind is EditKind.FORMULA and len(edit.old) == 1)
+            return 0.5 + rare + _UNUSUAL * usage.formula_odds(edit, site) + _LATER * usage.passing
+        case EditKind.MISSING:
+            return _ADDED_SOON if usage.is_wanted(edit, site) else 0.5
         case EditKind.TERM:
-            return _REPEATED_SOON if _TWICE.fullmatch(edit.old) else _TERM_SOON + _LATER * usage.passing
+            is_alike = usage.mentions.makes_alike(edit, site) or _TWICE.fullmatch(edit.old)
+            soon = _TERM_SOON - _DOUBLED * leaves_one(edit)
+            return _REPEATED_SOON if is_alike else soon + _LATER * usage.passing
         case EditKind.NAME:
             fitness = usage.fitness(edit, site)
             is_set = usage.mentions.is_set_by(edit, site)
@@ -302,6 +340,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return _LATE if sets_value(edit.old) else 0.3
         case EditKind.DROPPED_BRANCH:
             return 1.0
+        case EditKind.RELATION if usage.orders.rights(edit, site):
+            return -1.0  # seen without any flight
         case EditKind.RELATION:
             if edit.new == _LOOSE:
                 return 0.3
@@ -330,7 +370,7 @@ def follow_ups(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]
     smaller = [
         (cost_of(other, site, usage), number, other)
         for number, other in enumerate(site.edits)
-        if _is_apart(other, edit) or is_raised(other) == is_raised(edit)
+        if is_apart(other, edit) or is_raised(other) == is_raised(edit)
     ]
     wanted = sorted(one for one in smaller if one[0] < mine)
     kinds: dict[EditKind, SmallEdit] = {}
@@ -340,11 +380,6 @@ def follow_ups(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]
     return each[:_MOST_FOLLOW_UPS]
 
 
-def _is_apart(one: SmallEdit, other: SmallEdit) -> bool:
-    """Whether two edits are not both about the number at one place."""
-    return one.kind not in NUMERIC or other.kind not in NUMERIC or one.begin != other.begin
-
-
 def alternatives(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]:
     """Other edits of the same line that change about as much."""
     most = cost_of(edit, site, usage) + 0.5
@@ -352,7 +387,7 @@ def alternatives(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdi
         (cost_of(other, site, usage), number, other)
         for number, other in enumerate(site.edits)
         if other != edit and other.kind not in DROPPED
-        if _is_apart(other, edit) or is_raised(other) == is_raised(edit)
+        if is_apart(other, edit) or is_raised(other) == is_raised(edit)
     ]
     return [other for cost, _, other in sorted(others)[:_MOST_FOLLOW_UPS] if cost <= most]
 

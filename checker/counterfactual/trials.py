@@ -14,8 +14,9 @@ from checker.batch.interruption import InterruptedSearch
 from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.counterfactual.candidates import Candidate, Suspicion
-from checker.counterfactual.damage import HEAVY, collapsed_of, course_of, damage_of, strayed_of
+from checker.counterfactual.damage import HEAVY, collapsed_of, course_of, damage_of, is_farther, strayed_of
 from checker.counterfactual.numbers import between, is_doubling
+from checker.counterfactual.orders import is_order_turned
 from checker.counterfactual.smallness import (
     Usage,
     alternatives,
@@ -23,7 +24,6 @@ from checker.counterfactual.smallness import (
     delay_of,
     follow_ups,
     is_loosening,
-    is_order_turned,
     is_probe,
 )
 from checker.counterfactual.turns import Turns
@@ -226,7 +226,9 @@ def try_out(
                 turns.avoid(edit)
             if trials.is_lost or (is_told and course_of(result) == course):
                 turns.doubt(site, None if is_probe(edit) else edit.begin)
-            if result.verdict is Verdict.FAIL and result.judgement.code != failed[0].judgement.code:
+            if result.verdict is Verdict.FAIL and is_farther(result, failed[0]):
+                turns.encourage(site)
+            if result.verdict is Verdict.FAIL and course_of(result) != course:
                 for other in between(edit, site):
                     turns.add(at + _LESS, candidate, other)
             continue

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
-from checker.mutation.exchanges import exchangeable, exchanged, misplaced, shortened
+from checker.mutation.exchanges import exchangeable, exchanged, misplaced, recast, shortened
 from checker.mutation.names import other_names, other_points, other_tokens, other_values, tautologies
 from checker.mutation.scope import LineScope, Scopes
 from nddl_lang.semantics.constraints import CONSTRAINTS
@@ -80,11 +80,13 @@ class EditKind(StrEnum):
     DROPPED_BRANCH = "dropped branch"
     OPERATOR = "operator"  # a product for a sum
     TERM = "term"  # of a sum or product, left out
+    FORMULA = "formula"  # other operators of an expression
+    MISSING = "missing term"  # a term or factor more, of what nothing reads
 
 
 OUTSIDE = (EditKind.MISSION, EditKind.GOAL, EditKind.PROMISE)  # of any model
 DROPPED = (EditKind.DROPPED_CONSTRAINT, EditKind.DROPPED_BRANCH)
-REPAIRS = (EditKind.TERM,)  # tried as causes, and not made as faults
+REPAIRS = (EditKind.TERM, EditKind.FORMULA, EditKind.MISSING)  # tried as causes, and not made as faults
 
 
 @dataclass(frozen=True, slots=True)
@@ -343,6 +345,7 @@ class _Reader:
                     yield EditKind.OPERATOR, span, "*" if op == "+" else "+"
                 yield from ((EditKind.ARGUMENTS, *each) for each in misplaced(node))
                 yield from ((EditKind.TERM, span, new) for span, new in shortened(node))
+                yield from ((EditKind.FORMULA, span, new) for span, new in recast(node))
             case UnaryExpr(op="-", operand=operand, span=span):
                 yield EditKind.SIGN, span, operand.span.text
             case Relation(relation=relation, bounds=()):

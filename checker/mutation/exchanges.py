@@ -7,6 +7,8 @@ from nddl_lang.syntax.nodes import BinaryExpr, Expr, FloatLiteral, IntLiteral, P
 from nddl_lang.text.source import Span
 
 _COMMUTING = ("addEq", "mulEq", "multEq", "eqSum", "eqProduct", "eqMinimum", "eqMaximum", "maxf", "minf")
+_OTHER_OPERATORS = {"+": "", "-": "*", "*": "-/", "/": "*"}  # beside those that mutants have
+_SINGLE = (PathExpr, IntLiteral, FloatLiteral)
 _FEW_ARGUMENTS = 3  # of a constraint whose result may be mistaken for an input
 
 
@@ -32,12 +34,24 @@ def misplaced(node: BinaryExpr) -> Iterator[tuple[Span, str]]:
 
 
 def shortened(node: BinaryExpr) -> Iterator[tuple[Span, str]]:
-    """A sum, difference, product or quotient without one of its operands, where that is a name."""
-    if node.op not in ("+", "-", "*", "/"):
+    """A sum, difference, product or quotient without one of its operands: a name or number, or a product in a sum."""
+    if node.op not in _OTHER_OPERATORS:
         return
     for left_out, kept in ((node.right, node.left), (node.left, node.right)):
-        if isinstance(left_out, PathExpr) and (kept is node.left or node.op in ("+", "*")):
+        is_term = node.op in "+-" and isinstance(left_out, BinaryExpr) and left_out.op in "*/"
+        if (is_term or isinstance(left_out, _SINGLE)) and (kept is node.left or node.op in ("+", "*")):
             yield node.span, kept.span.text
+
+
+def recast(node: BinaryExpr) -> Iterator[tuple[Span, str]]:
+    """Another operator, and two that follow each other each in the other's place: `a * b - c` for `a - b * c`."""
+    yield from ((node.op_span, other) for other in _OTHER_OPERATORS.get(node.op, ""))
+    for inner in (node.left, node.right) if node.op in _OTHER_OPERATORS else ():
+        if isinstance(inner, BinaryExpr) and inner.op in _OTHER_OPERATORS and inner.op != node.op:
+            first, last = sorted((inner.op_span, node.op_span), key=lambda one: one.begin)
+            between = first.source.text[first.finish : last.begin]
+            if between.count("(") == between.count(")"):
+                yield first.to(last), last.text + between + first.text
 
 
 def exchanged(first: Expr, second: Expr) -> tuple[Span, str]:

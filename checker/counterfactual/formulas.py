@@ -1,0 +1,113 @@
+"""The lines of models in; out: how usual it is that two operands are joined so, and that an argument stands there.
+
+A model writes alike what is alike: `seconds * frames` in one line speaks against `seconds + frames` in another, and
+`mulEq(rate, time, metres)` against `mulEq(metres, time, speed)`. A constant is multiplied by the variable whose name it
+bears, and seldom added to it; to what is rounded something is added.
+"""
+
+import math
+import re
+from collections import Counter
+from collections.abc import Container, Iterator, Sequence
+
+from checker.counterfactual.affinity import is_kin
+from checker.mutation.edits import EditSite, SmallEdit
+
+_TOKEN = re.compile(r"[A-Za-z_][\w.]*|\d[\w.]*|[-+*/()]|[^\s\w]")
+_CALL = re.compile(r"\s*(\w+)\s*\((.*)\)\s*;", re.DOTALL)
+_ROUNDING = ("ceil", "floor", "round")
+_OPERATORS = "+-*/"
+_SUM, _ROUND, _NUMBER, _CONSTANT, _NAME = "sum", "rounded", "number", "constant", "name"
+# How often operands of two sorts are joined, before any line of the model is read.
+_USUAL = {
+    _ROUND: {"+": 4.0, "-": 1.0, "*": 0.3, "/": 0.1},
+    _CONSTANT: {"+": 2.0, "-": 1.5, "*": 2.0, "/": 0.7},
+    _NUMBER: {"+": 2.0, "-": 1.5, "*": 3.0, "/": 1.0},
+    _NAME: {"+": 2.0, "-": 1.5, "*": 2.0, "/": 1.0},
+}
+_SAME, _KIN = 3.0, 5.0  # what the same two names elsewhere count, and a constant beside the name that it bears
+_PLACE = 0.5  # of an argument that stands nowhere else
+
+_Pair = tuple[str, str, str]
+
+
+class Formulas:
+    """How all lines join operands, and where they have their arguments; `constants` are the global variables."""
+
+    def __init__(self, sites: Sequence[EditSite], constants: Container[str]) -> None:
+        self._constants = constants
+        lines = [list(self._pairs(site.text)) for site in sites]
+        self._same = Counter(_plain(*pair) for pairs in lines for pair in pairs)
+        self._sorts = Counter((self._sort(pair), pair[1]) for pairs in lines for pair in pairs)
+        self._places = Counter(place for site in sites for place in _places(site.text))
+
+    def odds(self, edit: SmallEdit, site: EditSite) -> float:
+        """Logarithm of how much likelier a line is meant as it is than as an edit leaves it."""
+        before, after = list(self._pairs(site.text)), list(self._pairs(site.after(edit)))
+        kept = Counter(before) & Counter(after)
+        old, new = (Counter(one) - kept for one in (before, after))
+        return sum(self._weight(one, 1) for one in old.elements()) - sum(self._weight(one, 0) for one in new.elements())
+
+    def order_odds(self, edit: SmallEdit, site: EditSite) -> float:
+        """The same by the places of arguments in other calls."""
+        before, after = set(_places(site.text)), set(_places(site.after(edit)))
+        old = sum(math.log(_PLACE + self._places[one] - 1) for one in before - after)
+        return old - sum(math.log(_PLACE + self._places[one]) for one in after - before)
+
+    def _weight(self, pair: _Pair, own: int) -> float:
+        """Logarithm of the share of an operator among those that join such operands, its `own` mention left out."""
+        left, operator, right = pair
+        sort = self._sort(pair)
+        is_kin_pair = {self._kind(left), self._kind(right)} == {_CONSTANT, _NAME} and is_kin(
+            left.rpartition(".")[2], right.rpartition(".")[2]
+        )
+        counts = {}
+        for one in _OPERATORS:
+            mine = own * (one == operator)
+            named = self._same[_plain(left, one, right)] - mine if left and right else 0
+            usual = _USUAL[sort][one] + self._sorts[sort, one] - mine
+            counts[one] = usual + _SAME * named + _KIN * (is_kin_pair and one == "*")
+        return math.log(counts[operator] / sum(counts.values()))
+
+    def _pairs(self, text: str) -> Iterator[_Pair]:
+        """Each operator of a line with what stands beside it: a name, a number, or a sort in place of a call or sum."""
+        tokens = _TOKEN.findall(text)
+        opened: list[int] = []
+        calls: dict[int, str] = {}
+        for at, token in enumerate(tokens):
+            if token == "(":
+                opened.append(at)
+            elif token == ")" and opened:
+                calls[at] = tokens[opened.pop() - 1]
+        for at, token in enumerate(tokens[1:-1], 1):
+            left, right = tokens[at - 1], tokens[at + 1]
+            if token not in _OPERATORS or not (left[0].isalnum() or left[0] in "_)"):
+                continue
+            if left == ")":
+                left = _ROUND if calls.get(at - 1) in _ROUNDING else _SUM
+            if right == "(" or tokens[at + 2 : at + 3] == ["("]:
+                right = _ROUND if right in _ROUNDING else _SUM
+            yield left, token, right
+
+    def _sort(self, pair: _Pair) -> str:
+        kinds = {self._kind(pair[0]), self._kind(pair[2])}
+        return next(one for one in (_ROUND, _NUMBER, _CONSTANT, _NAME) if one in kinds)
+
+    def _kind(self, word: str) -> str:
+        if word in (_ROUND, _SUM):
+            return _ROUND if word == _ROUND else _NAME
+        return _NUMBER if word[0].isdigit() else _CONSTANT if word in self._constants else _NAME
+
+
+def _plain(left: str, operator: str, right: str) -> _Pair:
+    """Two operands by their names alone, in an order of their own where it does not matter."""
+    names = [one.rpartition(".")[2] for one in (left, right)]
+    first, last = sorted(names) if operator in "+*" else names
+    return first, operator, last
+
+
+def _places(text: str) -> Iterator[tuple[str, int, str]]:
+    """The arguments of a call, each with its place."""
+    if (call := _CALL.fullmatch(text)) is not None:
+        for at, argument in enumerate(call.group(2).split(",")):
+            yield call.group(1), at, argument.strip().rpartition(".")[2]

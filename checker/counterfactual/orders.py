@@ -1,0 +1,45 @@
+"""The lines of a rule in; out: whether a relation of two tokens says the contrary of what a limit between them says.
+
+`turn.start <= out.end + PAUSE_MAX;` counts from the end of `out`: so `out` comes first, whatever `before` says.
+"""
+
+import re
+from collections import defaultdict
+from collections.abc import Sequence
+
+from checker.mutation.edits import EditKind, EditSite, SmallEdit, inverse_of
+
+_LATER = re.compile(r"\s*(\w+)\.start\s*[<>]=?\s*(\w+)\.end\b.*;", re.DOTALL)
+_ORDERED = re.compile(r"\s*(\w+)\s+(before|after|meets|met_by)\s+(\w+)\s*;")
+_TURNED = ("after", "met_by")
+
+
+class Orders:
+    """Of each rule, which of two tokens comes first by the limits on the time between them."""
+
+    def __init__(self, sites: Sequence[EditSite]) -> None:
+        self._first: dict[object, set[tuple[str, str]]] = defaultdict(set)
+        for site in sites:
+            if site.rule and (found := _LATER.fullmatch(site.text)):
+                self._first[site.file, site.scope].add((found.group(2), found.group(1)))
+
+    def rights(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether a relation says the same as such a limit after an edit, and said the contrary before."""
+        known = self._first.get((site.file, site.scope), ())
+        before, after = (_order(text) for text in (site.text, site.after(edit)))
+        return before is not None and after in known and before[::-1] == after and before not in known
+
+
+def is_order_turned(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether a relation of two named tokens says the same with the tokens swapped."""
+    is_between = edit.kind is EditKind.RELATION and edit.begin > site.begin
+    return is_between and edit.new == inverse_of(edit.old) != edit.old
+
+
+def _order(text: str) -> tuple[str, str] | None:
+    """Two tokens, the one that a relation has first before the other."""
+    found = _ORDERED.fullmatch(text)
+    if found is None:
+        return None
+    one, relation, other = found.groups()
+    return (other, one) if relation in _TURNED else (one, other)

@@ -1,0 +1,89 @@
+"""Sites in, the same out with one more kind of edit: a number that nothing reads, as a term or factor of a line.
+
+Who declares a constant, or sets a local variable, means it to be read: where no line does, an expression may lack it.
+"""
+
+import re
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from checker.mutation.edits import EditKind, EditSite, SmallEdit
+
+_WORD = re.compile(r"[A-Za-z_]\w*")
+_NUMBER = re.compile(r"(int|float)\s+(\w+)\s*(?:=.*)?;", re.DOTALL)
+_SET = re.compile(r"\s*(\w+)\s*==")
+_COMPARED = re.compile(r"([^<>=!&|?]+?)(?:==|<=|>=|<|>)([^<>=!&|?]+);", re.DOTALL)
+_ROUNDED = re.compile(r"\b(?:ceil|floor|round)\s*\(([^()]*)\)")
+_SAMPLING = "sampledParameter"
+_POINTS, _TIMES = ("start", "end"), ("start", "end", "duration")
+_MOST_IDLE = 4  # names that nothing reads: where there are more, that says little
+
+
+def with_additions(sites: Sequence[EditSite]) -> list[EditSite]:
+    """All sites; those of rules have edits that write what nothing reads into an expression."""
+    words = {site: [word for word in _WORD.findall(site.text) if word != site.named] for site in sites}
+    used = Counter(word for found in words.values() for word in found)
+    constants = [site for site in sites if site.is_number and not used[site.named]]
+    scopes: dict[tuple[str, tuple[int, int]], list[EditSite]] = defaultdict(list)
+    for site in sites:
+        if site.rule and not site.is_rule:
+            scopes[site.file, site.scope].append(site)
+    files = {file for file, _ in scopes}
+    found: dict[EditSite, list[SmallEdit]] = defaultdict(list)
+    for (file, _), lines in scopes.items():
+        near = [one for one in constants if one.file == file or one.file not in files]
+        idle = [(one.named, "float" if one.text.startswith("float") else "int", False) for one in near[:_MOST_IDLE]]
+        idle += [(name, kind, True) for name, kind in _unread_locals(lines, words)]
+        for site in lines if idle else ():
+            for name, kind, is_local in idle:
+                found[site] += _grown(site, name, kind == "float", is_local)
+    return [replace(site, edits=(*site.edits, *found[site])) if found.get(site) else site for site in sites]
+
+
+def _unread_locals(lines: Sequence[EditSite], words: dict[EditSite, list[str]]) -> Iterator[tuple[str, str]]:
+    """The numbers that lines of a rule declare and set, and none reads, each with its type."""
+    for site in lines:
+        if (declared := _NUMBER.fullmatch(site.text)) is None:
+            continue
+        kind, name = declared.groups()
+        others = [one for one in lines if one is not site and name in words[one]]
+        is_set = "=" in site.text or bool(others)
+        if is_set and all((left := _SET.match(one.text)) and left.group(1) == name for one in others):
+            yield name, kind
+
+
+def _grown(site: EditSite, name: str, is_real: bool, is_local: bool) -> Iterator[SmallEdit]:
+    """A demand with a number more: beside its right side, or beside one of the terms there."""
+    compared = _COMPARED.fullmatch(site.text)
+    if compared is None or _SAMPLING in site.text or name in _WORD.findall(site.text):
+        return
+    whole = _stripped(site.text, *compared.span(2))
+    is_time = compared.group(1).strip().rpartition(".")[2] in _TIMES
+    sums = [(whole, sign) for sign in "+-"] if not (is_real and is_time) else []
+    terms = [one for one in _terms(site.text, *whole) if not set(_POINTS) & set(_WORD.findall(site.text[slice(*one)]))]
+    inner = [_stripped(site.text, *one.span(1)) for one in _ROUNDED.finditer(site.text, *whole)]
+    products = [(one, "*") for one in (*inner, *(() if is_real and is_time else terms))]
+    for (first, last), sign in (*products, *sums) if is_local else (*sums, *products):
+        old = site.text[first:last]
+        is_sum = sign == "*" and len(list(_terms(old, 0, len(old)))) > 1
+        new = f"({old}) {sign} {name}" if is_sum else f"{old} {sign} {name}"
+        line = site.first + site.text.count("\n", 0, first)
+        yield SmallEdit(EditKind.MISSING, site.file, site.begin + first, site.begin + last, old, new, line)
+
+
+def _terms(text: str, first: int, last: int) -> Iterator[tuple[int, int]]:
+    """Where the terms of a sum stand."""
+    depth, begun = 0, first
+    for at in range(first, last):
+        depth += (text[at] == "(") - (text[at] == ")")
+        if depth == 0 and text[at] in "+-" and text[begun:at].strip() and text[begun:at].rstrip()[-1] not in "*/":
+            yield _stripped(text, begun, at)
+            begun = at + 1
+    yield _stripped(text, begun, last)
+
+
+def _stripped(text: str, first: int, last: int) -> tuple[int, int]:
+    """A stretch of a text without the blanks around it."""
+    part = text[first:last]
+    return first + len(part) - len(part.lstrip()), last - len(part) + len(part.rstrip())
