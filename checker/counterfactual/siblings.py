@@ -35,7 +35,12 @@ def _siblings(line: tuple[str, ...], like: tuple[str, ...]) -> Iterator[tuple[st
     """A line with the last letter of words changed as it differs from another line where both first differ."""
     pair = next(((one, other) for one, other in zip(line, like, strict=False) if one != other), None)
     if pair is not None and len(pair[0]) == len(pair[1]) and pair[0][:-1] == pair[1][:-1]:
-        old, new = pair[0][-1], pair[1][-1]
-        named = [one for one in line if one[-1] == old and (one[0].isalpha() or one[0] == "_")]
+        old, new = (one[-1].lower() for one in pair)
+        named = [one for one in line if one[-1].lower() == old and (one[0].isalpha() or one[0] == "_")]
         if len(named) >= _LEAST:
-            yield tuple(one[:-1] + new if one in named else one for one in line)
+            yield tuple(one[:-1] + _like(new, one[-1]) if one in named else one for one in line)
+
+
+def _like(letter: str, other: str) -> str:
+    """A letter in the case of another one."""
+    return letter.upper() if other.isupper() else letter

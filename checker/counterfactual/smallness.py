@@ -241,7 +241,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             far = 0.0 if site.named and float(edit.old) == 0.0 else octaves(edit)  # who names a number has one
             nothing = _NOTHING * (bool(site.named) and float(edit.old) == 0.0)
             return 1.0 - nothing + _OCTAVE * far + _DIGIT * (digits(edit.new) - digits(edit.old))
-        case EditKind.ARGUMENTS if usage.directions.is_put_in_order(edit, site):
+        case EditKind.ARGUMENTS if usage.directions.is_put_in_order(edit, site) or usage.siblings.completes(edit, site):
             return 0.0
         case EditKind.PROMISE:
             return _PROMISED
@@ -294,7 +294,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     match edit.kind:
         case EditKind.MISSION:
             return -1.0 if edit.old == "0" else None  # tried last
-        case EditKind.NAME | EditKind.LIMIT if usage.siblings.completes(edit, site):
+        case EditKind.NAME | EditKind.LIMIT | EditKind.ARGUMENTS if usage.siblings.completes(edit, site):
             return -1.0  # seen without any flight
         case EditKind.GOAL | EditKind.PROMISE:
             return None

@@ -17,6 +17,8 @@ MODEL = """#include "TREX.nddl"
 int TRACK_EXTRA = 65;
 float WIND_DRAG = 0.1;
 float RATE = 3.0;
+float WIND_X = 1.0;
+float WIND_Y = 1.0;
 class Mount extends AgentTimeline {
   predicate Track { int seconds; int frames; float wind; float dx; float dy; }
   predicate Look { int seconds; int frames; float ax; float ay; float bx; float by; }
@@ -46,6 +48,10 @@ Mount::Look {
   float length;
   float time;
   mulEq(length, time, dx);
+  float tx;
+  float ty;
+  mulEq(WIND_X, tx, ax);
+  mulEq(WIND_Y, ty, ay);
 }
 """
 
@@ -121,6 +127,8 @@ def test_a_line_says_of_one_axis_what_another_says_of_another(sites: list[EditSi
     assert_likelier(right, other, usage)
     kept = change(sites, "track.dx == bx - ax;", "track.dx == by - ax;", EditKind.NAME)
     assert not usage.siblings.completes(*kept)
+    kept = change(sites, "mulEq(WIND_X, tx, ax);", "mulEq(WIND_Y, tx, ax);", EditKind.LIMIT)
+    assert not usage.siblings.completes(*kept)  # `X` of one axis and `x` of it are one
 
 
 def test_other_edits_of_a_line_come_sooner_where_one_let_the_mission_come_farther(sites: list[EditSite]) -> None:
