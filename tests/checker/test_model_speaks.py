@@ -125,6 +125,7 @@ def test_a_line_says_of_one_axis_what_another_says_of_another(sites: list[EditSi
     right = change(sites, "track.dy == bx - ay;", "track.dy == by - ay;", EditKind.NAME)
     other = change(sites, "track.dy == bx - ay;", "track.dy == ax - ay;", EditKind.NAME)
     assert_likelier(right, other, usage)
+    assert usage.is_fitting(*right)
     kept = change(sites, "track.dx == bx - ax;", "track.dx == by - ax;", EditKind.NAME)
     assert not usage.siblings.completes(*kept)
     kept = change(sites, "mulEq(WIND_X, tx, ax);", "mulEq(WIND_Y, tx, ax);", EditKind.LIMIT)
