@@ -162,7 +162,7 @@ class Usage:
         return gain + _ALIKE * self.mentions.likeness(edit, site) + _DOUBLED * is_doubled(edit, site)
 
     def is_fitting(self, edit: SmallEdit, site: EditSite) -> bool:
-        """Whether a line asks for a name: by a constant that bears it, the same name on the other side, or a sibling."""
+        """Whether a line asks for a name: by a constant that bears it, the same on the other side, or a sibling."""
         is_fit = self.affinity.kindred(edit, site) > 0 or self.mentions.likeness(edit, site) > 0.0
         return is_fit or self.siblings.completes(edit, site)
 
