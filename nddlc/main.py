@@ -17,6 +17,7 @@ import click
 import runtime.build_form
 from nddl_lang.text.nearest import nearest
 from nddlc.fitting import columns, fitted
+from runtime.limits import LimitError
 from runtime.user.black_box import HERE
 from runtime.user.fault import UserCodeError
 
@@ -144,6 +145,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return _UNUSABLE
     except UserCodeError as mistake:
         _blame(mistake)
+        return _UNUSABLE
+    except LimitError as problem:
+        _complain(f"nddlc: {problem}\n  help: {problem.advice}")
         return _UNUSABLE
     except MemoryError:
         _complain("nddlc: there is not enough memory for this")

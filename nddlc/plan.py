@@ -15,9 +15,9 @@ from nddlc.cancellation import Clock
 from nddlc.fitting import columns, fitted, say
 from nddlc.goals import goals_of
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
-from nddlc.memory import bounded, half_of_the_machine
 from nddlc.trust import library_for, trust_option
 from runtime.constraints.domains.tags import HALF_INF, INF
+from runtime.limits import bounded, half_of_the_machine
 from runtime.loading import Loaded, as_data, load
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.level_profile import LevelProfile, level_profiles

@@ -86,7 +86,7 @@ class _Pool:
         self.workers = [self._begun() for _ in range(batch.workers)]
 
     def _begun(self) -> Worker:
-        return Worker(self.batch.load, self.batch.agent)
+        return Worker(self.batch.load, self.batch.agent, self.batch.workers)
 
     def run(self, signalled: int) -> signal.Signals | None:
         """Serve workers until every task has its result, or there are enough; a signal ends that at once."""

@@ -16,12 +16,14 @@ from checker.batch.signals import ENDING
 from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result, reason_of, work
 from checker.oracle import USER_CODE
 from runtime.executive.configuration import AgentConfiguration
+from runtime.limits import half_of_the_machine
 from runtime.user.black_box import new_box, signal_name
 from runtime.user.fault import UserCodeError
 
 _SAFE_PATH = "PYTHONSAFEPATH"
 _LOOK = 0.25  # seconds from one look at a process to the next
 _START_LIMIT = 120.0  # seconds for a worker to load the models
+_LEAST_MEMORY = 1024  # MiB that a worker may take on the smallest machine
 
 
 class WorkerError(Exception):
@@ -129,15 +131,19 @@ class Flyer:
 
 
 class Worker:
-    """A process, the way to it, and the missions that it still owes; the first of them is in flight."""
+    """A process, the way to it, and the missions that it still owes; the first of them is in flight.
 
-    def __init__(self, load: Load, agent: AgentConfiguration) -> None:
+    It is one of `workers`, which share half of the machine's memory.
+    """
+
+    def __init__(self, load: Load, agent: AgentConfiguration, workers: int = 1) -> None:
         context = multiprocessing.get_context("spawn")
         self.connection, other = context.Pipe()
         self._box = new_box()
         self._looked = time.monotonic()
         box = "" if self._box is None else self._box.path
-        self.process: BaseProcess = context.Process(target=work, args=(other, load, agent, box), daemon=True)
+        memory = max(half_of_the_machine() // workers, _LEAST_MEMORY)
+        self.process: BaseProcess = context.Process(target=work, args=(other, load, agent, box, memory), daemon=True)
         with _signals_held_back(), _safe_path(), _children_allowed():
             self.process.start()
         other.close()

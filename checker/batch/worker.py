@@ -15,6 +15,7 @@ from checker.oracle import USER_CODE, Judgement, Verdict, judge
 from checker.sampling.sampler import RANDOM_POINT, SamplePoint
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import Outcome
+from runtime.limits import LimitError, bounded
 from runtime.user.black_box import HERE
 from runtime.user.fault import HELP, UserCodeError
 from runtime.user.limit import WATCH
@@ -56,14 +57,22 @@ class LastWords:
     reason: str
 
 
-def work(connection: Connection, load: Load, agent: AgentConfiguration, box: str) -> None:
-    """Serve missions until None comes or the other end is gone; calls are noted in the black box of that name."""
+def work(connection: Connection, load: Load, agent: AgentConfiguration, box: str, memory: int) -> None:
+    """Serve missions until None comes or the other end is gone; calls are noted in the black box of that name.
+
+    More than `memory` MiB are not taken: a mission that needs them is an ERROR, and the next one is flown.
+    """
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):  # these go to the whole group; the parent decides what they mean
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_IGN)
     if box:
         HERE.open(box)
     WATCH.last_words = partial(_send_last_words, connection)
+    with bounded(memory):
+        _serve(connection, load, agent)
+
+
+def _serve(connection: Connection, load: Load, agent: AgentConfiguration) -> None:
     try:
         try:
             fly = load(agent)
@@ -98,6 +107,10 @@ def fly_one(fly: Fly, task: Task, *, keep_trace: bool = False) -> MissionResult:
         outcome = fly(task.seed)
     except UserCodeError as problem:
         return error_result(task, reason_of(problem), problem.detail, USER_CODE)
+    except LimitError as problem:
+        return error_result(task, str(problem))
+    except MemoryError:
+        return error_result(task, "there was not enough memory for it")
     except Exception as problem:
         return error_result(task, f"{type(problem).__name__}: {problem}", traceback.format_exc())
     judgement, losses = judge(outcome), losses_of(outcome)

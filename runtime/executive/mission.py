@@ -1,5 +1,6 @@
 """Run one mission of a configuration: programs and a seed go in, an outcome comes out."""
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -23,6 +24,7 @@ from runtime.executive.story import conflict_of
 from runtime.executive.trace import Trace
 from runtime.executive.view import whole_bound
 from runtime.executive.workbench import Workbench
+from runtime.limits import LimitError
 from runtime.plan.database import Environment, PlanDatabase
 from runtime.plan.tags import INFINITY
 from runtime.solver.configuration.configuration import Configuration
@@ -114,7 +116,24 @@ def _flown(
         kinds = _goal_kinds(configuration, programs, goal)
         goals.append((goal.at, request_of(goal, -1 - number, kinds)))
     agent = Agent(configuration, reactors, goals, seed, trace, every_tick, tells_on)
-    return agent.run(until), reactors
+    try:
+        return agent.run(until), reactors
+    except LimitError as problem:
+        raise LimitError(f"no end was found at tick {agent.tick}: {problem}{_most_planned(reactors)}") from problem
+
+
+def _most_planned(reactors: list[TeleoReactor]) -> str:
+    """Which tokens a plan has most of, of that reactor which has the most, and which line asks for them."""
+    plans = [reactor for reactor in reactors if isinstance(reactor, PlanReactor)]
+    largest = max(plans, key=lambda reactor: reactor.bench.rows.token_count)
+    rows, database = largest.bench.rows, largest.bench.database
+    asked = Counter((rows.predicate[t], rows.span[t]) for t in largest.bench.all_tokens() if rows.parent[t] >= 0)
+    if not asked:
+        return ""
+    (predicate, span), count = asked.most_common(1)[0]
+    spans = database.code.spans
+    place = f", for {spans[span].source.name}:{spans[span].line}" if 0 <= span < len(spans) else ""
+    return f"; `{largest.name}` plans {count} tokens `{database.program.predicates[predicate].name}`{place}"
 
 
 def _unloaded(configuration: AgentConfiguration, problem: UnusableModelError, world: World) -> Outcome:

@@ -7,8 +7,8 @@ from runtime.plan.store.rows cimport Rows
 from runtime.solver.flaws.filters cimport PlanningScope
 from runtime.solver.search cimport Solver
 
-cdef long long EXHAUSTED, FLAG_REJECTABLE, INACTIVE, LISTS, LIST_THREAT, _MOST_EXPLAINED, _MOST_STEPS, _NEVER
-cdef long long _NO_LIMIT, PLAN, ROLE_LOCAL, ROLE_TOKEN, SPAN_CLOCK
+cdef long long EXHAUSTED, FLAG_REJECTABLE, INACTIVE, LISTS, LIST_THREAT, _DEEPEST, _MOST_CHANGES, _MOST_EXPLAINED
+cdef long long _MOST_STEPS, _NEVER, _NO_LIMIT, PLAN, ROLE_LOCAL, ROLE_TOKEN, SPAN_CLOCK
 
 
 cdef class _Window(PlanningScope):
@@ -30,6 +30,9 @@ cdef class _Window(PlanningScope):
     @cython.locals(rows=Rows)
     cpdef bint _is_left_over(self, long long t) except -1
 
+    @cython.locals(bench=Workbench, parent="long long")
+    cpdef bint _is_of_before(self, long long t) except -1
+
     @cython.locals(plan=Plan, role="long long")
     cpdef bint admits_variable(self, long long v) except -1
 
@@ -41,7 +44,7 @@ cdef class Planner:
     cdef public object max_steps, max_depth, missed
     cdef public bint is_fresh
     cdef public dict rejections
-    cdef public long long kept_depth, resolved
+    cdef public long long deepest, kept_depth, resolved
 
     @cython.locals(is_deep=bint, outcome="long long")
     cpdef long long deliberate(self, long long tick, long long end) except? -1

@@ -7,6 +7,7 @@ from runtime.executive.outcome import Conflict, Deadlock, Reason, ReasonKind
 from runtime.executive.story import SearchLog, conflict_of
 from runtime.executive.view import SPAN_CLOCK
 from runtime.executive.workbench import Workbench
+from runtime.limits import LimitError
 from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, LIST_THREAT, LISTS, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.configuration.configuration import Configuration, FlawFilter, Match
 from runtime.solver.flaws.filters import PlanningScope
@@ -16,6 +17,8 @@ from runtime.solver.tags import EXHAUSTED, PLAN
 _NO_LIMIT = 2**62
 _NEVER = -1
 _MOST_STEPS = 1_000_000  # decisions about one present that the engine makes, if nobody sets a limit
+_DEEPEST = 20_000  # decisions in force at once in one episode, if nobody sets a limit
+_MOST_CHANGES = 2**24  # of the plan that can be undone: half a gigabyte; missions of 30,000 ticks have some 2**12
 _TIMES = (
     *[Match(variable=name) for name in ("start", "end", "duration")],
     *[Match(class_name=owner, variable="time") for owner in ("Resource", "Reservoir")],
@@ -26,15 +29,12 @@ _MOST_EXPLAINED = 2_000  # decisions of a search that is repeated to find out wh
 EPISODE_MOVED, EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, _EPISODE_OUT_OF_STEPS = range(5)
 
 
-class LimitError(RuntimeError):
-    """A limit of the engine itself was reached: no verdict about the model."""
-
-
 class _Window(PlanningScope):
     """Tokens that can start by `end` and end at `tick` or later (T-REX 1.7); for the present, those that hold now.
 
     What is on a timeline that the model ignores is in no scope.
-    What is over and still undecided is in scope of both: it must be found among what has happened.
+    What is over and still undecided is in scope of both: it must be found among what has happened. What was over before
+    the mission asks for nothing before it: of that time nothing is known, and who asks on would find no end.
     Who looks one tick ahead plans what was asked for and what others are to do, no more: what else its own timelines
     begin to hold is decided when the time comes, by what holds then.
     """
@@ -86,8 +86,14 @@ class _Window(PlanningScope):
         """Whether `t` is undecided, and no goal, or active without a place in a sequence."""
         rows = self.bench.rows
         if rows.status[t] == INACTIVE:
-            return not self.bench.is_goal(t)
+            return not self.bench.is_goal(t) and not self._is_of_before(t)
         return bool(rows.link_head[LISTS * t + LIST_THREAT] >= 0)
+
+    def _is_of_before(self, t: int) -> bool:
+        """Whether `t`, and who asked for it, were over when the mission began."""
+        bench = self.bench
+        parent = bench.rows.parent[t]
+        return parent >= 0 and bench.upper(bench.end(parent)) <= 0 and bench.upper(bench.end(t)) <= 0
 
     def admits_variable(self, v: int) -> bool:
         """Whether `v` is to be decided now: globals always, others with their token."""
@@ -114,11 +120,13 @@ class Planner:
         self.bench = bench
         self.window = _Window(bench)
         self.window.final = final_tick
+        bench.engine.trail_most = _MOST_CHANGES
         self.solver = Solver(bench.database, _within_window(configuration), 0, 1, False)
         self.solver.set_scope(self.window)
         self.solver.agenda.earliest = True
         self.max_steps = max_steps
         self.max_depth = max_depth
+        self.deepest = _DEEPEST
         self.kept_depth = 0  # the decisions of this episode that were kept when the steps of a tick ran out
         self.is_fresh = True
         self.resolved = _NEVER  # the propagation after which the present had no flaws, without a decision
@@ -148,6 +156,8 @@ class Planner:
             self.kept_depth = 0
             self.is_fresh = True
             return EPISODE_EXHAUSTED if outcome == EXHAUSTED else EPISODE_TOO_DEEP
+        if self.max_depth is None and self.solver.depth > self.deepest:
+            raise LimitError(f"more than {self.deepest} decisions are in force at once")
         return EPISODE_MOVED
 
     def pause(self) -> None:

@@ -9,20 +9,20 @@ from dataclasses import replace
 from runtime.executive.dispatch import Dispatch
 from runtime.executive.messages import Observation
 from runtime.executive.outcome import ChoiceKind, Deadlock, FailedChoice, PresentChoice, Reason, ReasonKind
-from runtime.executive.planning import EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, LimitError, Planner
+from runtime.executive.planning import EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, Planner
 from runtime.executive.reactor import SyncFailure
 from runtime.executive.story import conflict_of
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
+from runtime.limits import LimitError
 
 _FREE_TRIES = 100  # tries beyond those that a present without conflicts takes
 _MOST_TRIES = 100_000
 _UNDEFINED = "undefined"
 _TRIES_EXHAUSTED = SyncFailure("", (), Reason(ReasonKind.UNMET), None)
 
-# Ways to synchronise a timeline: a token goes on, starts, is made, is observed, or meets what is observed. A choice is
-# such a way, the token that it is about (NOTHING: none yet) and the predicate of a new one.
+# A choice: how a token is found (it goes on, starts, is made, observed, or meets what is), it or NOTHING, a predicate.
 _EXTEND, _NEXT, _NEW, _FACT, _MEET = range(5)
 _Choice = tuple[int, int, int]
 _KINDS = (ChoiceKind.EXTEND, ChoiceKind.NEXT, ChoiceKind.NEW, ChoiceKind.OBSERVE, ChoiceKind.MEET)

@@ -24,6 +24,7 @@ from runtime.executive.outcome import (
     RepairStage,
     SourcePlace,
 )
+from runtime.limits import LimitError, half_of_the_machine
 from runtime.plan.readout.names import TokenName, VariableName
 from runtime.plan.readout.statements import Term
 
@@ -182,6 +183,19 @@ def load_signalled(agent: AgentConfiguration) -> Fly:
         if seed == 3:
             os.kill(os.getpid(), 40)
             time.sleep(5.0)
+        return _outcome(agent, seed, is_linked=True)
+
+    return fly
+
+
+def load_greedy(agent: AgentConfiguration) -> Fly:
+    """A fake agent that asks for more than half of the machine's memory in the mission with seed 2."""
+
+    def fly(seed: int) -> Outcome:
+        if seed == 2:
+            bytearray((half_of_the_machine() + 100) * 2**20)
+        if seed == 3:
+            raise LimitError("no end was found")
         return _outcome(agent, seed, is_linked=True)
 
     return fly

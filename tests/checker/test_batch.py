@@ -4,6 +4,7 @@ import multiprocessing
 import os
 import signal
 import sqlite3
+import sys
 import threading
 import time
 from pathlib import Path
@@ -49,7 +50,7 @@ from runtime.executive.rendering import trace_json
 from runtime.plan.readout.names import TokenName, VariableName
 from runtime.plan.readout.statements import ResourceTerm, Term
 from runtime.solver.learning.attempts import Flaw, Resolver, ResolverKind
-from tests.checker.fake_agent import load_linked, load_nothing, load_slow, load_troubled
+from tests.checker.fake_agent import load_greedy, load_linked, load_nothing, load_slow, load_troubled
 
 
 def agent() -> AgentConfiguration:
@@ -122,6 +123,14 @@ def test_crashes_hangs_and_bugs_cost_one_mission_each() -> None:
         12: "took longer than 1 s",
         13: "the process died (exit code 9)",
     }
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no limit of memory there")
+def test_a_mission_that_needs_too_much_memory_or_has_no_end_is_an_error_and_the_next_is_flown() -> None:
+    results = fly(load_greedy, range(1, 5), 1)
+    told = {one.seed: one.judgement.message for one in results if one.judgement.verdict is Verdict.ERROR}
+    assert told == {2: "there was not enough memory for it", 3: "no end was found"}
+    assert len(results) == 4
 
 
 def test_single_flights_survive_the_process_that_flies_them() -> None:

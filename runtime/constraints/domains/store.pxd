@@ -10,7 +10,7 @@ cdef long long TRAIL_LOWER, TRAIL_REAL_LOWER, TRAIL_REAL_UPPER, TRAIL_UPPER
 cdef class Store:
     cdef public long long variables, reserved_next, reserved_end, bits_used
     cdef public long long table_used, hole_free, holes_used, trail_size
-    cdef public long long trail_room, trail_base, marks, slots_used
+    cdef public long long trail_room, trail_most, trail_base, marks, slots_used
     cdef public long long edges_used, edge_free, constraints_used, constraint_free
     cdef public long long epoch, restrictions_used, restriction_free, seed
     cdef public long long reason_count, visits_begun, cone_count, edge_mask

@@ -16,6 +16,7 @@ from runtime.constraints.domains.tags import (
     TRAIL_REAL_UPPER,
     TRAIL_UPPER,
 )
+from runtime.limits import LimitError
 
 _FIRST_ROOM = 128
 
@@ -80,6 +81,7 @@ class Store:
         # The trail.
         self.trail_size = 0
         self.trail_room = room
+        self.trail_most = 2**62
         self.trail_base = 0
         self.trail_key = array("i", [0]) * room
         self.trail_value = array("q", [0]) * room
@@ -222,8 +224,10 @@ class Store:
         grow_ring(self, "dear", 2 * len(self.op))
 
     def grow_trail(self) -> None:
-        """Make the trail longer."""
+        """Make the trail longer; `LimitError` beyond `trail_most`."""
         room = next_log_room(self.trail_room)
+        if room > self.trail_most:
+            raise LimitError(f"more than {self.trail_room} changes of its plan are in force at once")
         grow_rows(self, "trail_key trail_value trail_support trail_when", room)
         self.trail_room = room
 

@@ -1,4 +1,4 @@
-"""A budget of memory for a search: what exceeds it is a MemoryError in here, not the end of the machine."""
+"""Limits of the tool itself, of decisions and of memory: what goes beyond them ends with a message."""
 
 import os
 import sys
@@ -13,6 +13,12 @@ _MEBIBYTE = 2**20
 _USUAL = 4096  # where nobody can tell how much there is
 
 
+class LimitError(RuntimeError):
+    """A limit of the engine itself was reached: no verdict about the model."""
+
+    advice = "a rule may ask for ever more tokens, see `nddlc lint`; a limit of your own is `max_depth` of the reactor"
+
+
 def half_of_the_machine() -> int:
     """Half of the memory there is, in MiB."""
     try:
@@ -23,7 +29,7 @@ def half_of_the_machine() -> int:
 
 @contextmanager
 def bounded(mebibytes: int) -> Iterator[None]:
-    """Let what is inside take so much memory beside what is taken already."""
+    """Let what is inside take so much memory beside what is taken already; more is a MemoryError in here."""
     if sys.platform == "win32":  # where there is no such limit
         yield
         return
