@@ -8,6 +8,7 @@ from pathlib import Path
 
 from checker.codes import MISSING_KEY, NO_EFFECT, NO_FILE, TWICE, UNKNOWN_ELEMENT, UNKNOWN_KEY, WRONG_TYPE
 from checker.mission_table import MissionText, TomlTable
+from compiler.program import TOKEN_TIMES
 from nddl_lang.text.diagnostic import Note
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_source
@@ -34,7 +35,6 @@ _MODELLED = {
 _CODED = {"name": "name", "latency": "latency", "code": "code"}
 _UNREAD = ("config", "log", "verbose", "all_plans", "relation_gv")  # what T-REX writes beside the mission
 _FLAGS = {"true": True, "1": True, "false": False, "0": False}
-_TIMES = ("start", "end", "duration")
 _DOMAINS = ("int", "float", "bool", "string", "symbol", "enum", "date", "duration")
 _CONTENTS = ("Use", "Plugin", "Goal", "EuropaReactor", "PythonReactor", *_CLOCKS)
 
@@ -166,7 +166,7 @@ class _AgentFile:
             elif name is None:
                 self.text.diagnostics.append(MISSING_KEY.at(child.span, table="<Variable>", key="name"))
             else:
-                is_time = name.value in _TIMES
+                is_time = name.value in TOKEN_TIMES
                 keys: Keys = (*path, name.value) if is_time else (*path, "parameters", name.value)
                 self._put(keys, name.span, child.span)
                 (table if is_time else parameters)[name.value] = self._domain(child, name.value)

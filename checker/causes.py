@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import networkx as nx
 
 from checker.culprit import culprit_of
+from compiler.program import TOKEN_TIMES
 from runtime.executive.events import causes_of, numbered
 from runtime.executive.outcome import (
     Abort,
@@ -24,7 +25,6 @@ from runtime.executive.outcome import (
     Outcome,
 )
 
-_TIMES = ("start", "end", "duration")
 _ANSWERS = (EventKind.REFUSE, EventKind.REJECT)
 _MISSED = "F6"  # what its owner had refused or rejected
 _MOST_EVENTS = 8  # of the way to the abort, the last ones
@@ -214,5 +214,5 @@ def timed_requests(elements: Sequence[ConflictElement]) -> list[ConflictElement]
         for one in elements
         if one.kind is ElementKind.REQUEST
         and one.place is None
-        and any(variable.name in _TIMES for variable in one.variables)
+        and any(variable.name in TOKEN_TIMES for variable in one.variables)
     ]

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from checker.judge.report import ResourceProfile
+from compiler.program import TOKEN_TIMES
 from runtime.executive.columns import TokenColumns
 from runtime.executive.configuration import (
     AgentConfiguration,
@@ -23,7 +24,6 @@ from runtime.executive.outcome import Event, EventKind, PropertyFate
 from runtime.executive.record import MissionRecord, ReactorRecord, TokenRecord
 
 _ROUNDING = 1e-9
-_NAMES = ("start", "end", "duration")
 
 
 @dataclass(frozen=True, slots=True)
@@ -263,4 +263,4 @@ def _number(node: ast.expr, given: Mapping[str, float]) -> float:
 def names_of(pattern: TokenPattern) -> tuple[str, ...]:
     """The arguments that a pattern speaks of; the times of a token are none."""
     where = parse_expression(pattern.where).names if pattern.where else ()
-    return tuple(name for name in (*(name for name, _ in pattern.parameters), *where) if name not in _NAMES)
+    return tuple(name for name in (*(name for name, _ in pattern.parameters), *where) if name not in TOKEN_TIMES)

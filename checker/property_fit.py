@@ -8,13 +8,12 @@ from checker.judge.resources import resources_of
 from checker.mission import Mission
 from checker.mission_table import describe
 from checker.properties import names_of
-from compiler.program import PredicateCode, Program
+from compiler.program import TOKEN_TIMES, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
 from runtime.executive.configuration import LevelPattern, PropertyConfiguration, TokenPattern
 
 _Path = tuple[str | int, ...]
-_TIMES = ("start", "end", "duration")
 
 
 def property_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[Diagnostic]:
@@ -83,7 +82,7 @@ def _pattern_misfits(
             key: _Path = (*path, "parameters", name) if is_listed else (*path, "where")
             span = mission.text.key_span(key) if is_listed else mission.text.value_span(key)
             what = pattern.predicate or str(class_name)
-            advice = _advice(name, [*sorted(names), *_TIMES], "arguments")
+            advice = _advice(name, [*sorted(names), *TOKEN_TIMES], "arguments")
             yield NO_ARGUMENT.at(span, predicate=what, name=name, help=advice)
     for one in chosen:
         yield from _strange_values(mission, pattern, path, one, program)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from nddl_lang.text.source import Span
 
 STATE, OBJECT, DURATION, START, END, FIRST_PARAMETER = range(6)  # variables of a token, in order
-TOKEN_VARIABLES = ("state", "object", "duration", "start", "end")
+TOKEN_VARIABLES, TOKEN_TIMES = ("state", "object", "duration", "start", "end"), ("start", "end", "duration")
 
 
 @dataclass(frozen=True, slots=True)

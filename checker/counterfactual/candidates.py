@@ -17,6 +17,7 @@ from checker.counterfactual.dependence import Dependence
 from checker.culprit import culprit_of
 from checker.mutation.edits import EditSite
 from checker.proofs.places import ModelText
+from compiler.program import TOKEN_TIMES
 from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Span
 from runtime.executive.configuration import PropertyConfiguration
@@ -30,7 +31,6 @@ _LEVEL = 0.5  # of what changes the level of a resource that rules something out
 _OUTSIDE = 3.0  # added where other lines contradict each other, whatever happens
 _TROUBLES = (EventKind.RELAX, EventKind.REJECT, EventKind.REFUSE, EventKind.KILL)
 _TELLING, _MOST_TOLD = 3.0, 0.6  # what a conflict tells of its lines together, and of one
-_ENDS = ("start", "end", "duration")
 _ANSWERS, _TIME = (EventKind.REJECT, EventKind.REFUSE), "start"
 _UNSEEN = 4.0  # added for lines of a rule that nothing fired
 
@@ -100,7 +100,7 @@ def candidates_of(
     asked |= {(event.predicate, _TIME) for event in answers}
     for token, variable in sorted(asked):
         asking = dict.fromkeys(graph.asking(token, variable), _OBSERVED)
-        if variable in _ENDS:  # who asks for a time has it from the limits of its own token
+        if variable in TOKEN_TIMES:  # who asks for a time has it from the limits of its own token
             rules = sorted({graph.sites[number].rule for number in asking})
             asking |= {one: _OBSERVED + _STEP for rule in rules for one in graph.setting(rule, variable)} | asking
         for number, far in asking.items():

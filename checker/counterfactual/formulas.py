@@ -27,6 +27,7 @@ _USUAL = {
 }
 _SAME, _KIN = 3.0, 5.0  # what the same two names elsewhere count, and a constant beside the name that it bears
 _PLACE = 0.5  # of an argument that stands nowhere else
+_MOST_SAID = 2.5  # by other lines for or against an expression
 
 _Pair = tuple[str, str, str]
 
@@ -42,17 +43,21 @@ class Formulas:
         self._places = Counter(place for site in sites for place in _places(site.text))
 
     def odds(self, edit: SmallEdit, site: EditSite) -> float:
-        """Logarithm of how much likelier a line is meant as it is than as an edit leaves it."""
+        """Logarithm of how much likelier a line is meant as it is than as an edit leaves it, within bounds."""
+        return _within(self._joined(edit, site))
+
+    def place_odds(self, edit: SmallEdit, site: EditSite) -> float:
+        """The same of the order of arguments or operands, by their places in other calls, too."""
+        before, after = set(_places(site.text)), set(_places(site.after(edit)))
+        old = sum(math.log(_PLACE + self._places[one] - 1) for one in before - after)
+        new = sum(math.log(_PLACE + self._places[one]) for one in after - before)
+        return _within(old - new + self._joined(edit, site))
+
+    def _joined(self, edit: SmallEdit, site: EditSite) -> float:
         before, after = list(self._pairs(site.text)), list(self._pairs(site.after(edit)))
         kept = Counter(before) & Counter(after)
         old, new = (Counter(one) - kept for one in (before, after))
         return sum(self._weight(one, 1) for one in old.elements()) - sum(self._weight(one, 0) for one in new.elements())
-
-    def order_odds(self, edit: SmallEdit, site: EditSite) -> float:
-        """The same by the places of arguments in other calls."""
-        before, after = set(_places(site.text)), set(_places(site.after(edit)))
-        old = sum(math.log(_PLACE + self._places[one] - 1) for one in before - after)
-        return old - sum(math.log(_PLACE + self._places[one]) for one in after - before)
 
     def _weight(self, pair: _Pair, own: int) -> float:
         """Logarithm of the share of an operator among those that join such operands, its `own` mention left out."""
@@ -97,6 +102,10 @@ class Formulas:
         if word in (_ROUND, _SUM):
             return _ROUND if word == _ROUND else _NAME
         return _NUMBER if word[0].isdigit() else _CONSTANT if word in self._constants else _NAME
+
+
+def _within(odds: float) -> float:
+    return max(min(odds, _MOST_SAID), -_MOST_SAID)
 
 
 def _plain(left: str, operator: str, right: str) -> _Pair:

@@ -27,7 +27,6 @@ _TERM, _TERM_SOON = 3.0, 0.9  # of a sum or product without a part, and when tha
 _REPEATED, _REPEATED_SOON = 0.5, -0.2  # the same where both parts are one name
 _ADDED, _ADDED_SOON = 2.0, -0.4  # of what nothing reads in a line that its name does not speak of; when else tried
 _SIBLING = 3.0  # of a name with which a line says of one axis what another says of another
-_MOST_SAID = 2.5  # by other lines for or against an expression
 _RECAST = 0.3  # how much later what no mutant makes is tried
 _UNEQUAL, _EQUAL = "!=", "=="
 _WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
@@ -111,15 +110,6 @@ class Usage:
         label = called.group(1) if called is not None else ""
         bears = is_kin(label, edit.new) - is_kin(label, edit.old)
         return _PRESENT * min(self.counts[edit.new], _MOST_PRESENT) + _CALLED * bears
-
-    def formula_odds(self, edit: SmallEdit, site: EditSite) -> float:
-        """Logarithm of how much likelier an expression is meant as it is than as an edit leaves it, within bounds."""
-        return max(min(self.formulas.odds(edit, site), _MOST_SAID), -_MOST_SAID)
-
-    def place_odds(self, edit: SmallEdit, site: EditSite) -> float:
-        """The same of the order of arguments or operands."""
-        odds = self.formulas.order_odds(edit, site) + self.formulas.odds(edit, site)
-        return max(min(odds, _MOST_SAID), -_MOST_SAID)
 
     def is_wanted(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether what an edit adds is a variable of the rule, or bears the name of what the line is about."""
@@ -249,7 +239,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.MISSION if edit.old == "0":
             return 0.0  # a reactor that is asked for nothing
         case EditKind.ARGUMENTS if is_result_moved(edit, site):
-            return _RESULT + usage.place_odds(edit, site)
+            return _RESULT + usage.formulas.place_odds(edit, site)
         case EditKind.GOAL:
             return _WISHED
         case EditKind.PREDICATE if edit.old in EVENTS:
@@ -259,9 +249,9 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.ARGUMENTS if "/" in edit.old:
             return 1.0 + _QUOTIENT
         case EditKind.ARGUMENTS:
-            return 1.0 + usage.place_odds(edit, site)
+            return 1.0 + usage.formulas.place_odds(edit, site)
         case EditKind.OPERATOR | EditKind.FORMULA:
-            return 3.0 + usage.formula_odds(edit, site)
+            return 3.0 + usage.formulas.odds(edit, site)
         case EditKind.MISSING:
             return _ADDED * (not usage.is_wanted(edit, site))
         case EditKind.MISSION:
@@ -312,11 +302,11 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.ARGUMENTS if usage.directions.is_put_in_order(edit, site):
             return -1.0  # seen without any flight
         case EditKind.ARGUMENTS:
-            odds = _UNUSUAL * usage.place_odds(edit, site)
+            odds = _UNUSUAL * usage.formulas.place_odds(edit, site)
             return _SWAPPED + _LATER * usage.passing + 0.5 * ("/" in edit.old) + odds
         case EditKind.OPERATOR | EditKind.FORMULA:
             rare = _RECAST * (edit.kind is EditKind.FORMULA and len(edit.old) == 1)
-            return 0.5 + rare + _UNUSUAL * usage.formula_odds(edit, site) + _LATER * usage.passing
+            return 0.5 + rare + _UNUSUAL * usage.formulas.odds(edit, site) + _LATER * usage.passing
         case EditKind.MISSING:
             return _ADDED_SOON if usage.is_wanted(edit, site) else 0.5
         case EditKind.TERM:

@@ -45,19 +45,11 @@ class Turns:
         """Try the lines beside one that has helped sooner."""
         new = set(self._beside(site)) - self._favoured
         self._favoured |= new
-        self._queue = [
-            (at * _BESIDE if candidate.site in new and at > 0.0 else at, number, candidate, edit)
-            for at, number, candidate, edit in self._queue
-        ]
-        heapq.heapify(self._queue)
+        self._hasten(new)
 
     def encourage(self, site: EditSite) -> None:
         """Try the other edits of a line sooner of which one let the mission come farther."""
-        self._queue = [
-            (at * _BESIDE if candidate.site is site and at > 0.0 else at, number, candidate, edit)
-            for at, number, candidate, edit in self._queue
-        ]
-        heapq.heapify(self._queue)
+        self._hasten({site})
 
     def doubt(self, site: EditSite, place: int | None) -> None:
         """Try what else may stand at a place of a line later; at any of its places where none is given.
@@ -72,9 +64,15 @@ class Turns:
         """Try what else writes a word later that left a flight without an end: it costs as much as many others."""
         self._delay(_ENDLESS, lambda _, edit: edit.kind is lost.kind and edit.new == lost.new)
 
+    def _hasten(self, sites: Collection[EditSite]) -> None:
+        self._move(lambda at: at * _BESIDE if at > 0.0 else at, lambda candidate, _: candidate.site in sites)
+
     def _delay(self, wait: float, concerns: Callable[[Candidate, SmallEdit], bool]) -> None:
+        self._move(lambda at: at + wait, concerns)
+
+    def _move(self, to: Callable[[float], float], concerns: Callable[[Candidate, SmallEdit], bool]) -> None:
         self._queue = [
-            (at + wait if concerns(candidate, edit) else at, number, candidate, edit)
+            (to(at) if concerns(candidate, edit) else at, number, candidate, edit)
             for at, number, candidate, edit in self._queue
         ]
         heapq.heapify(self._queue)

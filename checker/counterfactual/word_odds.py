@@ -4,6 +4,7 @@ import re
 
 from checker.counterfactual.affinity import WORD
 from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from compiler.program import TOKEN_TIMES
 
 EVENTS = ("consume", "produce")
 TRUTHS = ("true", "false")
@@ -15,7 +16,6 @@ _REAL = re.compile(r"\d\.\d|\d\.(?!\w)")
 _ROUNDED = re.compile(r"\b(ceil|floor|round)\s*\(")
 _NAMED = re.compile(r"(\s*)(eq|leq|lt)(\s*\()([^,()]+)(,\s*)([^,()]+)(\)\s*)(;)")
 _SIGNS = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
-_TIMES = ("start", "end", "duration")
 
 # How often a word is meant, in lines of a sort, before any line of the model is read.
 _RELATIONS = {
@@ -100,4 +100,4 @@ def compared(text: str) -> str:
 
 
 def _is_about_time(site: EditSite) -> bool:
-    return any(word in _TIMES for word in WORD.findall(site.text))
+    return any(word in TOKEN_TIMES for word in WORD.findall(site.text))

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from compiler.program import TOKEN_TIMES
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _NUMBER = re.compile(r"(int|float)\s+(\w+)\s*(?:=.*)?;", re.DOTALL)
@@ -16,7 +17,7 @@ _SET = re.compile(r"\s*(\w+)\s*==")
 _COMPARED = re.compile(r"([^<>=!&|?]+?)(?:==|<=|>=|<|>)([^<>=!&|?]+);", re.DOTALL)
 _ROUNDED = re.compile(r"\b(?:ceil|floor|round)\s*\(([^()]*)\)")
 _SAMPLING = "sampledParameter"
-_POINTS, _TIMES = ("start", "end"), ("start", "end", "duration")
+_POINTS = ("start", "end")
 _MOST_IDLE = 4  # names that nothing reads: where there are more, that says little
 
 
@@ -59,7 +60,7 @@ def _grown(site: EditSite, name: str, is_real: bool, is_local: bool) -> Iterator
     if compared is None or _SAMPLING in site.text or name in _WORD.findall(site.text):
         return
     whole = _stripped(site.text, *compared.span(2))
-    is_time = compared.group(1).strip().rpartition(".")[2] in _TIMES
+    is_time = compared.group(1).strip().rpartition(".")[2] in TOKEN_TIMES
     sums = [(whole, sign) for sign in "+-"] if not (is_real and is_time) else []
     terms = [one for one in _terms(site.text, *whole) if not set(_POINTS) & set(_WORD.findall(site.text[slice(*one)]))]
     inner = [_stripped(site.text, *one.span(1)) for one in _ROUNDED.finditer(site.text, *whole)]

@@ -12,11 +12,11 @@ from pathlib import Path
 from checker.mission import Mission, parse_mission
 from checker.mission_table import MissionText
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, edited
+from compiler.program import TOKEN_TIMES
 from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Source
 from runtime.executive.configuration import AgentConfiguration
 
-_TIMES = ("start", "end", "duration")
 _PARAMETERS = "parameters"
 _NUMBER = re.compile(r"(?<![\w.])\d+(\.\d+)?")
 _LONGER = 10  # times as many ticks, of a property
@@ -68,7 +68,7 @@ def _sites(text: MissionText, table: tuple[str, int], values: Mapping[str, objec
 def _times(mission: Mission, number: int) -> Iterator[EditSite]:
     """The times of a goal: it may come at any time, as soon as the goal before it, or only be later."""
     goal, text, final = mission.agent.goals[number], mission.text, mission.agent.final_tick
-    for key, bounds in zip(_TIMES, (goal.start, goal.end, goal.duration), strict=True):
+    for key, bounds in zip(TOKEN_TIMES, (goal.start, goal.end, goal.duration), strict=True):
         path = ("goal", number, key)
         if bounds is not None and path in text.places:
             others = [f"[0, {final}]"]
