@@ -32,6 +32,7 @@ from nddl_lang.syntax.lexemes import excerpt
 from nddl_lang.syntax.misspelt import all_relations, meant_word
 from nddl_lang.syntax.nodes import BrokenStatement
 from nddl_lang.syntax.placement import break_statement
+from nddl_lang.syntax.reserved_names import read_as_name
 from nddl_lang.syntax.rewrites import close_block, link_tokens, rewrite
 from nddl_lang.syntax.skipping import end_of_statement, misaligned_brace
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS
@@ -67,6 +68,7 @@ class Recovery:
         self._kinds = b.kinds
         self._known = [diagnostic.span.start for diagnostic in b.piece.diagnostics if diagnostic.code in _LEXICAL]
         self._is_quiet = False
+        self._renamed: set[str] = set()  # reserved words that are names in this piece
         self._said_unclosed = b.piece.is_cut_short
 
     def recover(self, states: list[int], values: list[Any], index: int) -> int:
@@ -172,8 +174,10 @@ class Recovery:
             kinds[index] = b.texts[index] = "="
             return True
         if text in RESERVED and kinds[index] != "IDENT" and accepts(states, ["IDENT", *following]):
-            self._report(RESERVED_WORD, index, text=text, help="choose another name")
-            kinds[index] = "IDENT"
+            fixes = read_as_name(b, index)
+            if text not in self._renamed:
+                self._report(RESERVED_WORD, index, text=text, help="choose another name", fixes=fixes)
+            self._renamed.add(text)
             return True
         return False
 
