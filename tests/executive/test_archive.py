@@ -171,3 +171,62 @@ def test_the_archive_changes_no_outcome(seed: int, monkeypatch: pytest.MonkeyPat
     assert toy(seed) == with_archive
     assert Hoarder.calls > before
     SHELVES.clear()
+
+
+def device(name: str, predicates: str) -> str:
+    """A class of timelines that rest by default."""
+    return (
+        f"class {name} extends AgentTimeline {{ predicate Rest {{ }} {predicates} "
+        f'{name}(Mode m) {{ super(m, "Rest"); }} }}'
+    )
+
+
+BOOM = simulator(
+    "sim",
+    f"{device('Boom', 'predicate Act { }')} Boom::Act {{ duration == 20; }} Boom boom = new Boom(Internal); close();",
+    "boom",
+)
+
+
+@pytest.mark.parametrize(
+    ("rule", "end"),
+    [
+        ("a.end <= b.end;", 23),
+        ("a.end == b.end;", 23),
+        ("a ends b;", 23),
+        ("int over; a.end <= over; over <= b.end + 2;", 25),
+        ("a.duration <= b.duration;", 23),
+        ("b.end <= a.end;", 53),
+    ],
+)
+@pytest.mark.parametrize("shared", ["", "Arm::Act { contained_by(Stand.Up s); } Stand stand = new Stand(Internal);"])
+def test_what_a_task_says_of_two_that_outlast_it_is_kept(rule: str, end: int, shared: str) -> None:
+    # The boom ends at 23, which only the world knows; what the task said of the arm has to hold then, long after it.
+    classes = device("Arm", "predicate Act { }") + device("Boom", "predicate Act { }")
+    classes += device("Job", "predicate Do { } predicate Sing { }") + device("Stand", "predicate Up { }")
+    asks = "any(Arm.Act a); a.start == start; any(Boom.Act b); b.start == start;"
+    rules = f"Job::Do {{ duration == 5; {asks} {rule} }} Job::Sing {{ duration == 2; }} Arm::Act {{ duration <= 50; }}"
+    own = "Job job = new Job(Internal); Arm arm = new Arm(Internal); Boom boom = new Boom(External); close();"
+    plan = planner("plan", f"{classes} {rules} {shared} {own}", "job arm" + (" stand" if shared else ""), "boom")
+    goals = tuple(GoalConfiguration("job", what, start=(at, at)) for what, at in (("Do", 3), ("Sing", 10)))
+    flight = flown(plan, BOOM, until=70, goals=goals)
+    assert flight.report.holds
+    assert history(flight.outcome, "arm") == ["0 Rest", "3 Act", f"{end} Rest"]
+
+
+def test_what_is_merged_with_what_outlasts_its_parent_is_tied_to_another() -> None:
+    # Both jobs find the arm at work; the second says that it works no longer than the boom does.
+    classes = device("Arm", "predicate Act { }") + device("Boom", "predicate Act { }")
+    classes += device("Job", "predicate Do { } predicate Add { } predicate Sing { }")
+    rules = """
+    Job::Do { duration == 2; any(Arm.Act a); a.start == start; }
+    Job::Add { duration == 3; contained_by(Arm.Act a); any(Boom.Act b); b.start == start; a.end <= b.end; }
+    Job::Sing { duration == 2; }
+    Arm::Act { duration <= 50; }
+    """
+    own = "Job job = new Job(Internal); Arm arm = new Arm(Internal); Boom boom = new Boom(External); close();"
+    plan = planner("plan", f"{classes} {rules} {own}", "job arm", "boom")
+    goals = tuple(GoalConfiguration("job", what, start=(at, at)) for what, at in (("Do", 3), ("Add", 7), ("Sing", 14)))
+    flight = flown(plan, BOOM, until=70, goals=goals)
+    assert flight.report.holds
+    assert history(flight.outcome, "arm") == ["0 Rest", "3 Act", "27 Rest"]

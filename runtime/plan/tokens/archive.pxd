@@ -5,7 +5,7 @@ from runtime.constraints.domains.sparse_set cimport SparseSet
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.tokens.retraction cimport remove_tokens
 
-cdef long long ACTIVE, BRANCH_WAITING, FLAG_FROZEN, HOLDS_CONSTRAINT, HOLDS_EDGE, HOLDS_RESTRICTION, HOLDS_VARIABLES
+cdef long long ACTIVE, BRANCH_WAITING, END, FLAG_FROZEN, HOLDS_CONSTRAINT, HOLDS_EDGE, HOLDS_RESTRICTION, HOLDS_VARIABLES
 cdef long long KIND_FLOAT, MERGED, NONE, ROLE_LOCAL, ROLE_TOKEN, SCOPE_GUARD, START, SUPPORT_CONSTRAINT, SUPPORT_EDGE
 cdef long long SUPPORT_RESTRICTION
 
@@ -34,6 +34,10 @@ cpdef bint _has_begun(Plan plan, long long t, long long tick) except -1
 
 @cython.locals(s="long long")
 cpdef bint _has_waiting_guard(Plan plan, long long t) except -1
+
+
+@cython.locals(child="long long")
+cpdef bint _has_child_that_goes_on(Plan plan, long long t, long long tick) except -1
 
 
 @cython.locals(child="long long")

@@ -1,9 +1,10 @@
 """Archive: tokens that are over leave the plan; what they implied for others stays as base bounds (level 0).
 
 A token may go when nothing that still can change hangs on it: its parent goes too or is gone, so do the tokens merged
-into it, its children go or have begun, and none of its guards waits. A child that is merged into a token which has
-begun goes with its parent, however long the other lasts. What went told others is kept by restrictions that bear the
-span of the edge or constraint which said so, so explanations name the same lines.
+into it, its children go or have begun, none of its guards waits, and its rules tie no two variables that may change. A
+child that is merged into a token which has begun goes with its parent, however long the other lasts. What went told
+others is kept by restrictions that bear the span of the edge or constraint which said so, so explanations name the
+same lines.
 """
 
 from array import array
@@ -21,6 +22,7 @@ from runtime.plan.store.plan import Plan
 from runtime.plan.tags import (
     ACTIVE,
     BRANCH_WAITING,
+    END,
     HOLDS_CONSTRAINT,
     HOLDS_EDGE,
     HOLDS_RESTRICTION,
@@ -33,6 +35,7 @@ from runtime.plan.tags import (
     START,
 )
 from runtime.plan.tokens.retraction import remove_tokens
+from runtime.plan.tokens.ties import ties_what_goes_on
 
 
 class Leaving:
@@ -85,6 +88,8 @@ def _removable(plan: Plan, tokens: list[int], tick: int, leaving: Leaving) -> li
     for i in range(known.count):
         t = known.items[i]
         doomed[t] = not plan.predicate_resource[rows.predicate[t]] and not _has_waiting_guard(plan, t)
+        if doomed[t] and _has_child_that_goes_on(plan, t, tick) and ties_what_goes_on(plan, t, tick):
+            doomed[t] = 0
     changed = True
     while changed:
         changed = False
@@ -136,6 +141,17 @@ def _has_waiting_guard(plan: Plan, t: int) -> bool:
         if rows.scope_kind[s] == SCOPE_GUARD and rows.scope_branch[s] == BRANCH_WAITING:
             return True
         s = rows.scope_next[s]
+    return False
+
+
+def _has_child_that_goes_on(plan: Plan, t: int, tick: int) -> bool:
+    """Whether a child of `t`, or what it is merged into, ends after `tick`."""
+    rows = plan.rows
+    child = rows.children[t]
+    while child >= 0:
+        if plan.engine.upper(rows.var0[child] + END) > tick:
+            return True
+        child = rows.sibling[child]
     return False
 
 
