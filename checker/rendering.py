@@ -13,6 +13,7 @@ from checker.losses import Exceeded, Limit
 from checker.oracle import CODE_NAMES, Judgement
 from checker.proofs.called import Called
 from checker.proofs.conflict import Confirmation, Finding
+from checker.requested import PlannerChoice
 from checker.sampling.rendering import describe, number
 from checker.story import Step, StepKind, Story
 from compiler.program import DomainConstant
@@ -124,6 +125,8 @@ def step_text(step: Step, story: Story) -> str:
             return f"it acts through the rule of {rule}"
         case InfluenceLine(rule=rule):
             return f"the rule of {rule} asks for it"
+        case PlannerChoice(reactor=reactor, argument=argument):
+            return f"no line of {reactor} says what {argument} is: its planner chose"
         case Event() as event:
             return event_line(event)
         case ConflictElement() as element:

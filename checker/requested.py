@@ -4,8 +4,8 @@ A static slice, against the way of the value: from the argument of a child throu
 parameters of its own token, and on through the rules that ask for that token, in whatever reactor.
 """
 
-from collections.abc import Collection, Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from checker.counterfactual.instructions import flat
@@ -13,12 +13,14 @@ from checker.influence import InfluenceLine, line_of
 from checker.names import relative_name
 from compiler.program import (
     FIRST_PARAMETER,
+    TOKEN_TIMES,
     Assign,
     Child,
     Constant,
     GlobalVariable,
     LocalVariable,
     NewGlobal,
+    NewToken,
     NewVariable,
     Operand,
     Post,
@@ -26,10 +28,19 @@ from compiler.program import (
     RuleCode,
     TokenVariable,
 )
-from runtime.executive.outcome import ConflictElement, ElementKind
+from runtime.executive.outcome import ConflictElement, ElementKind, Event, EventKind, SourcePlace
 
 _EQUAL = "eq"
 _MOST = 6  # lines that are told of one argument
+
+
+@dataclass(frozen=True, slots=True)
+class PlannerChoice:
+    """An argument that the planner of a reactor has chosen, since no line says what it is; where it asked for that."""
+
+    reactor: str
+    argument: str
+    place: SourcePlace | None
 
 
 def lines_that_ask(
@@ -66,6 +77,32 @@ def lines_that_ask(
         replace(line, place=replace(line.place, file=relative_name(line.place.file, root)))
         for line in reversed(list(found)[:_MOST])
     )
+
+
+def who_chose(
+    element: ConflictElement, programs: Mapping[str, Program], events: Iterable[Event], root: Path
+) -> PlannerChoice | None:
+    """Who asked for an argument of which no line says what it is, so that its planner chose; None where one may say it.
+
+    To be asked of an element without `lines_that_ask`.
+    """
+    variable = next(iter(element.variables), None)
+    if element.kind is not ElementKind.REQUEST or element.place is not None:
+        return None
+    if variable is None or variable.token is None or variable.name in TOKEN_TIMES:
+        return None
+    predicate = variable.token.predicate
+    wanted = predicate.rpartition(".")[2]
+    asked = [one for one in events if one.kind is EventKind.REQUEST and one.predicate == wanted]
+    if not asked or (sender := programs.get(asked[-1].reactor)) is None:
+        return None
+    steps = [step for rule in sender.rules for step in flat(rule.body) if isinstance(step, Child)]
+    spans = dict.fromkeys(step.span for step in steps if step.predicate == predicate)
+    if not spans or any(isinstance(one, NewToken) and one.predicate == predicate for one in sender.script):
+        return None
+    place = line_of(next(iter(spans))) if len(spans) == 1 else None
+    place = place and replace(place, file=relative_name(place.file, root))
+    return PlannerChoice(asked[-1].reactor, f"{wanted}.{variable.name}", place)
 
 
 def _value(element: ConflictElement) -> float | None:

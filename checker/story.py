@@ -21,7 +21,7 @@ from checker.losses import Limit
 from checker.oracle import Judgement
 from checker.proofs.conflict import Confirmation, confirm, needed_elements
 from checker.proofs.places import ModelText
-from checker.requested import lines_that_ask
+from checker.requested import PlannerChoice, lines_that_ask, who_chose
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import (
@@ -49,6 +49,7 @@ class StepKind(StrEnum):
     LINE = "line"  # of the model, on the way of the draw
     EVENT = "event"
     ASKED = "asked"  # a line of the model, by which an argument came to be asked for
+    CHOSEN = "chosen"  # by a planner, as no line of the model says what an argument is
     CAUSE = "cause"  # an element of the conflict
     FAULT = "fault"  # the culprit
     TRIED = "tried"  # what the search tried in vain
@@ -70,6 +71,7 @@ class Step:
         tuple[Draw, ParameterConfiguration | None]
         | str
         | InfluenceLine
+        | PlannerChoice
         | Event
         | ConflictElement
         | Deadlock
@@ -253,8 +255,11 @@ def _with_askers(steps: list[Step], outcome: Outcome, text: ModelText | None) ->
     held |= {event.predicate for event in single_events(outcome.events) if event.kind is EventKind.REQUEST}
     for step in steps:
         if isinstance(step.subject, ConflictElement) and text is not None:
-            for line in lines_that_ask(step.subject, text.programs, text.root, held):
-                yield Step(StepKind.ASKED, None, line, line.place)
+            lines = lines_that_ask(step.subject, text.programs, text.root, held)
+            yield from (Step(StepKind.ASKED, None, line, line.place) for line in lines)
+            events = single_events(outcome.events)
+            if not lines and (chosen := who_chose(step.subject, text.programs, events, text.root)) is not None:
+                yield Step(StepKind.CHOSEN, None, chosen, chosen.place)
         yield step
 
 

@@ -4,7 +4,7 @@ from typing import Any, assert_never
 
 from checker.counterfactual.ranking import Causes, Claim, RankedLine
 from checker.counterfactual.trials import TrialsEnd
-from checker.mutation.edits import SmallEdit
+from checker.mutation.edits import EditKind, SmallEdit
 
 _MOST_TEXT = 60
 
@@ -52,6 +52,8 @@ def _change_text(change: SmallEdit) -> str:
     """A change as what to do."""
     if not change.new.strip():
         return "leave it out"
+    if change.kind is EditKind.LINE:
+        return f"add `{change.new.strip()}` behind it"
     return f"change `{_short(change.old)}` to `{_short(change.new)}`"
 
 

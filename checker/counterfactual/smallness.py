@@ -19,6 +19,7 @@ from checker.counterfactual.orders import Orders
 from checker.counterfactual.siblings import Siblings
 from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, sign_of, sort_of, sum_of
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit, inverse_of
+from checker.mutation.missing_lines import is_namesake, said_of
 
 _TWICE = re.compile(r"([A-Za-z_][\w.]*)\s*[+*]\s*\1")  # one name, added to itself or multiplied
 _LABEL = re.compile(r"\s+(\w+)\s*\)")
@@ -26,6 +27,7 @@ _LOOSE = "any"  # the relation that demands nothing
 _TERM, _TERM_SOON = 3.0, 0.9  # of a sum or product without a part, and when that is tried
 _REPEATED, _REPEATED_SOON = 0.5, -0.2  # the same where both parts are one name
 _ADDED, _ADDED_SOON = 2.0, -0.4  # of what nothing reads in a line that its name does not speak of; when else tried
+_LINE, _LINE_SOON = 1.0, -0.4  # of a line that is missing, and when it is tried if no other can be meant there
 _SIBLING = 3.0  # of a name with which a line says of one axis what another says of another
 _RECAST = 0.3  # how much later what no mutant makes is tried
 _UNEQUAL, _EQUAL = "!=", "=="
@@ -254,6 +256,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return 3.0 + usage.formulas.odds(edit, site)
         case EditKind.MISSING:
             return _ADDED * (not usage.is_wanted(edit, site))
+        case EditKind.LINE:
+            return 0.5 if is_namesake(edit.new) else _LINE
         case EditKind.MISSION:
             return 3.0
         case EditKind.TERM:
@@ -307,6 +311,10 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.OPERATOR | EditKind.FORMULA:
             rare = _RECAST * (edit.kind is EditKind.FORMULA and len(edit.old) == 1)
             return 0.5 + rare + _UNUSUAL * usage.formulas.odds(edit, site) + _LATER * usage.passing
+        case EditKind.LINE:
+            others = [one for one in site.rivals(edit, edit.kind) if said_of(one.new) == said_of(edit.new)]
+            alike = 0.0 if is_namesake(edit.new) else math.log(len(others))
+            return _LINE_SOON + _UNUSUAL * alike + _LATER * usage.passing
         case EditKind.MISSING:
             return _ADDED_SOON if usage.is_wanted(edit, site) else 0.5
         case EditKind.TERM:

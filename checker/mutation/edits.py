@@ -10,6 +10,7 @@ from enum import StrEnum
 from typing import Any
 
 from checker.mutation.exchanges import exchangeable, exchanged, misplaced, recast, shortened
+from checker.mutation.missing_lines import missing_lines
 from checker.mutation.names import other_names, other_points, other_tokens, other_values, tautologies
 from checker.mutation.scope import LineScope, Scopes
 from nddl_lang.semantics.constraints import CONSTRAINTS
@@ -82,11 +83,12 @@ class EditKind(StrEnum):
     TERM = "term"  # of a sum or product, left out
     FORMULA = "formula"  # other operators of an expression
     MISSING = "missing term"  # a term or factor more, of what nothing reads
+    LINE = "missing line"  # a line more, behind another one
 
 
 OUTSIDE = (EditKind.MISSION, EditKind.GOAL, EditKind.PROMISE)  # of any model
 DROPPED = (EditKind.DROPPED_CONSTRAINT, EditKind.DROPPED_BRANCH)
-REPAIRS = (EditKind.TERM, EditKind.FORMULA, EditKind.MISSING)  # tried as causes, and not made as faults
+REPAIRS = (EditKind.TERM, EditKind.FORMULA, EditKind.MISSING, EditKind.LINE)  # tried as causes, and not made as faults
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,14 +211,18 @@ class _Reader:
             match statement:
                 case IfStatement(condition=condition, then=then, otherwise=otherwise):
                     branches = [self._dropped(one[0].span.to(one[-1].span)) for one in (then, otherwise) if one]
-                    yield self._site(condition, rule, whole, (condition,), branches=branches, names=names)
+                    yield self._site(condition, rule, whole, (condition,), more=branches, names=names)
                     for branch in (then, otherwise or ()):
                         yield from self._body(branch, rule, whole, names)
                 case Foreach(body=inner):
                     yield from self._body(inner, rule, whole, names)
                 case CallConstraint() | ExprConstraint() | Relation() | VariableDecl() | Assignment():
-                    yield self._site(statement, rule, whole, (statement,), names=names)
-                    names = self._scopes.after(names, statement)
+                    behind = self._scopes.after(names, statement)
+                    made = {label: shape for label, shape in behind.tokens.items() if label not in names.tokens}
+                    lines = missing_lines(statement, whole, behind, made)
+                    more = [self._edit(EditKind.LINE, span, new) for span, new in lines]
+                    yield self._site(statement, rule, whole, (statement,), more=more, names=names)
+                    names = behind
                 case _:
                     pass
 
@@ -227,7 +233,7 @@ class _Reader:
         whole: Span,
         roots: tuple[Any, ...],
         named: str = "",
-        branches: Iterable[SmallEdit] = (),
+        more: Iterable[SmallEdit] = (),
         names: LineScope = _OUTSIDE,
     ) -> EditSite:
         edits = [edit for root in roots for edit in self._edits(root, names)]
@@ -243,7 +249,7 @@ class _Reader:
             rule,
             _lines(whole),
             node.span.text,
-            (*edits, *branches),
+            (*edits, *more),
             named,
             begin=node.span.begin,
             is_number=named in self._limits,

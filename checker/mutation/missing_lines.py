@@ -1,0 +1,56 @@
+"""A relation of a rule in, lines out that may be missing behind it: what a parameter of its token is, when it ends.
+
+A parameter that no line of the rule speaks of has any value that its planner likes, and a rule that says nothing of its
+own end may go on for ever.
+"""
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from checker.mutation.scope import LineScope, Shape
+from nddl_lang.syntax.nodes import Relation
+from nddl_lang.text.source import Span
+
+_OWN_END = re.compile(r"(?<![\w.])(?:end|duration)\b")
+_ADDED = re.compile(r" \w+\.(\w+) == (?:\w+\.)*(\w+);")
+_TRUTHS = ("true", "false")
+_AROUND = (
+    "contained_by",
+    "met_by",
+    "after",
+    "starts_during",
+    "ends_during",
+)  # what is there already
+
+
+def missing_lines(statement: Any, rule: Span, names: LineScope, made: dict[str, Shape]) -> Iterator[tuple[Span, str]]:
+    """Lines that may follow a relation, which has `made` tokens; `names` are what may be named behind it."""
+    if not isinstance(statement, Relation) or statement.relation.name in _AROUND:
+        return
+    behind = Span(statement.span.anchor, statement.span.end, statement.span.end)
+    for label, shape in made.items():
+        for parameter, kind in shape.parameters.items():
+            if names.is_value(kind) and not re.search(rf"\b{label}\s*\.\s*{parameter}\b", rule.text):
+                for value in _values(label, kind, names):
+                    yield behind, f" {label}.{parameter} == {value};"
+        if not shape.is_event and not _OWN_END.search(rule.text):
+            yield behind, f" {label}.end == end;"
+
+
+def is_namesake(added: str) -> bool:
+    """Whether an added line hands on what has the same name."""
+    found = _ADDED.fullmatch(added)
+    return found is not None and found.group(1) == found.group(2)
+
+
+def said_of(added: str) -> str:
+    """What an added line is about: the variable before `==`."""
+    return added.partition("==")[0]
+
+
+def _values(label: str, kind: str, names: LineScope) -> Iterator[str]:
+    """What a parameter of a token may be: a variable of the rule, a parameter of another token, a value of an enum."""
+    yield from (one for one in names.alike(kind) if one not in names.constants and not one.startswith(f"{label}."))
+    yield from (f"{kind}.{value}" for value in names.enums.get(kind, ()))
+    yield from _TRUTHS if kind == "bool" else ()
