@@ -11,6 +11,8 @@
 #   make plan-proof   MODELS (20000) random whole models beside judges that know only the models
 #   make fuzz         the property tests with many more examples, and MUTATIONS (1000000) mutations of texts
 #   make sampling-study  BATCHES (10000) simulated batches per sampler: how often each interval covers the true rate
+#   make alarm-study  FLIGHTS (11000) right missions and plans of every kind, judged: the judge objects to none
+#   make controllability-proof  NETWORKS (10000) small networks beside the game against the vehicle, played to its end
 #   make truths       conditions of models whose truth is known, each on FRESH (2000) fresh missions
 #   make kills        KILLS (20) batches killed by SIGKILL and as many by SIGTERM, resumed, beside undisturbed ones
 #   make agents       AGENTS (500) random missions of random reactors, flown in every way and put to an oracle of their traces
@@ -43,7 +45,7 @@ TICKING := $(BIN)/python build_backend/ticking.py
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study truths kills variants mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study controllability-proof truths kills variants mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -130,6 +132,16 @@ BATCHES := 10000
 
 sampling-study: build
 	$(BIN)/python -m tests.checker.sampling_study $(BATCHES)
+
+FLIGHTS := 11000
+
+alarm-study: build
+	$(BIN)/python -m tests.checker.judge.alarm_study $(FLIGHTS)
+
+NETWORKS := 10000
+
+controllability-proof: build
+	NDDLC_PROOFS=$(NETWORKS) $(PYTEST) tests/checker/test_controllability.py
 
 FRESH := 2000
 

@@ -12,8 +12,7 @@ from heapq import heappop, heappush
 
 from checker.controllability.network import UncertainNetwork
 
-# An edge as it stands with its later node: earlier node, weight, whether it is a lower-case edge, what it is made of.
-_Edge = tuple[int, int, bool, "object | _Call"]
+_Reason = object  # of an edge: that of the caller, or the `_Call` that has found it
 
 
 def offending_cycle(network: UncertainNetwork) -> tuple[object, ...] | None:
@@ -30,7 +29,7 @@ class _Call:
         self.node = node
         self.distance = [most] * count
         self.distance[node] = 0
-        self.via: dict[int, tuple[_Edge, int]] = {}  # the first edge of the path from a node, and where it leads
+        self.via = [-1] * count  # where the path from a node leads first
         self.queue: list[int] = []  # length times the number of nodes, plus the node
         self.done: set[int] = set()
         self.waits = -1
@@ -40,9 +39,11 @@ class _Propagation:
     def __init__(self, network: UncertainNetwork) -> None:
         count = network.points + len(network.links)
         self.count = count
-        self.into: list[list[_Edge]] = [[] for _ in range(count)]  # negative ones
-        self.upper: list[list[_Edge]] = [[] for _ in range(count)]  # the others
+        self.into: list[list[tuple[int, int]]] = [[] for _ in range(count)]  # negative edges: from where, and weight
+        self.upper: list[list[tuple[int, int]]] = [[] for _ in range(count)]  # the others
+        self.at_once = [-1] * count  # the lower-case edge into a node: from where
         self.least: list[dict[int, int]] = [{} for _ in range(count)]  # the smallest weight of ordinary edges
+        self.why: dict[tuple[int, int, int], _Reason] = {}  # of an edge: from, to and weight
         for edge in network.edges:
             self._add(edge.earlier, edge.later, edge.weight, edge.why)
         for number, link in enumerate(network.links):
@@ -51,22 +52,26 @@ class _Propagation:
             self._add(amid, link.start, -link.lower, why)
             self._add(amid, link.end, link.upper - link.lower, why)
             self._add(link.end, amid, 0, why)
-            self._put(link.end, (amid, 0, True, why))
-            self._put(amid, (link.end, link.lower - link.upper, False, why))
+            self.at_once[link.end] = amid
+            if link.upper > link.lower:
+                self._put(link.end, amid, link.lower - link.upper, why)
+            self.why[amid, link.end, 0] = why
         self.negative = [bool(edges) for edges in self.into]
         # A path that is longer than all that is negative together is part of no negative cycle.
-        self.most = -sum(edge[1] for edges in self.into for edge in edges)
+        self.most = -sum(weight for edges in self.into for _, weight in edges)
         self.finished = [False] * count
 
-    def _add(self, earlier: int, later: int, weight: int, why: "object | _Call") -> None:
+    def _add(self, earlier: int, later: int, weight: int, why: _Reason) -> None:
         """Add an ordinary edge, unless there is a stronger one."""
         known = self.least[later].get(earlier)
-        if known is None or weight < known:
-            self.least[later][earlier] = weight
-            self._put(later, (earlier, weight, False, why))
+        if known is not None and known <= weight:
+            return
+        self.least[later][earlier] = weight
+        self._put(earlier, later, weight, why)
 
-    def _put(self, later: int, edge: _Edge) -> None:
-        (self.into if edge[1] < 0 else self.upper)[later].append(edge)
+    def _put(self, earlier: int, later: int, weight: int, why: _Reason) -> None:
+        self.why[earlier, later, weight] = why
+        (self.into if weight < 0 else self.upper)[later].append((earlier, weight))
 
     def run(self) -> tuple[object, ...] | None:
         """Propagate from every negative node."""
@@ -95,11 +100,11 @@ class _Propagation:
 
     def _begin(self, node: int) -> _Call:
         call = _Call(node, self.count, self.most)
-        for edge in self.into[node]:
-            if edge[1] < call.distance[edge[0]]:
-                call.distance[edge[0]] = edge[1]
-                call.via[edge[0]] = (edge, node)
-                heappush(call.queue, edge[1] * self.count + edge[0])
+        for earlier, weight in self.into[node]:
+            if weight < call.distance[earlier]:
+                call.distance[earlier] = weight
+                call.via[earlier] = node
+                heappush(call.queue, weight * self.count + earlier)
         return call
 
     def _go_on(self, call: _Call) -> int:
@@ -111,23 +116,27 @@ class _Propagation:
             if node in done:
                 continue
             length = distance[node]
-            if length >= 0:
-                done.add(node)
-                self._add(node, source, length, call)
-                continue
             if self.negative[node] and not self.finished[node]:
                 heappush(queue, length * count + node)
                 call.waits = node
                 return node
             done.add(node)
-            for edge in upper[node]:
-                earlier = edge[0]
-                total = length + edge[1]
-                # The vehicle cannot be both at once and as late as it may.
-                if total < distance[earlier] and not (edge[2] and earlier == source):
+            earlier = self.at_once[node]
+            # The vehicle cannot be both at once and as late as it may.
+            if earlier not in (-1, source) and length < distance[earlier]:
+                distance[earlier] = length
+                via[earlier] = node
+                heappush(queue, length * count + earlier)
+            for earlier, weight in upper[node]:
+                total = length + weight
+                if total < distance[earlier]:
                     distance[earlier] = total
-                    via[earlier] = (edge, node)
-                    heappush(queue, total * count + earlier)
+                    via[earlier] = node
+                    if total < 0:
+                        heappush(queue, total * count + earlier)
+        for node, length in enumerate(distance):
+            if length >= 0 and via[node] >= 0:
+                self._add(node, source, length, call)
         return -1
 
     def _cycle(self, calls: list[_Call], node: int) -> tuple[object, ...]:
@@ -145,10 +154,13 @@ class _Propagation:
             is_first = True
             while is_first or at != call.node:
                 is_first = False
-                edge, at = call.via[at]
-                if isinstance(edge[3], _Call):
-                    inner.append((edge[3], edge[0]))
-                elif edge[3] is not None:
-                    reasons.setdefault(edge[3])
+                before = at
+                at = call.via[before]
+                further = call.distance[at] if at != call.node else 0
+                why = self.why[before, at, call.distance[before] - further]
+                if isinstance(why, _Call):
+                    inner.append((why, before))
+                elif why is not None:
+                    reasons.setdefault(why)
             pending += reversed(inner)
         return tuple(reasons)
