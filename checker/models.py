@@ -16,6 +16,7 @@ from checker.role_fit import find_role_misfits
 from compiler.lower import compile_model
 from compiler.program import ParameterSite, Program
 from nddl_lang.analysis import Analysis, analyse
+from nddl_lang.lint.configuration import most_lexemes
 from nddl_lang.semantics.callables import Callables
 from nddl_lang.syntax.includes import OpenText, load_module_graph
 from nddl_lang.text.diagnostic import Diagnostic, Severity
@@ -115,7 +116,9 @@ def load_models(mission: Mission, open_text: OpenText = read_text) -> ModelSet:
 def _analyse_models(agent: AgentConfiguration, callables: Callables, open_text: OpenText) -> dict[str, Analysis]:
     """The meaning of each model of an agent, by its path in the mission file."""
     names = dict.fromkeys(reactor.model for reactor in agent.reactors)
-    loaded = {name: load_module_graph(Path(agent.root) / name, open_text=open_text) for name in names}
+    root = Path(agent.root)
+    most = most_lexemes(root)
+    loaded = {name: load_module_graph(root / name, open_text=open_text, most=most) for name in names}
     return {name: analyse(each, callables) for name, each in loaded.items()}
 
 

@@ -101,6 +101,7 @@ class Project:
             self._settings.dialect or self._configuration.dialect,
             open_text=open_text,
             parse_text=self._parse,
+            most=self._configuration.most_lexemes,
         )
         self._kept, self._used = self._used, {}
         parses = {key_of(loaded.paths[parse.source]): parse for parse in loaded.parses}
@@ -128,7 +129,9 @@ class Project:
         place = (str(path), dialect, is_in_class)
         known = self._kept.pop(place, None)
         if known is None:
-            incremental = Incremental(source.name, dialect, CLASS if is_in_class else TOP)
+            incremental = Incremental(
+                source.name, dialect, CLASS if is_in_class else TOP, self._configuration.most_lexemes
+            )
             parse = incremental.update(source.text)
         else:
             incremental, parse = known

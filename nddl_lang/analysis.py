@@ -15,7 +15,7 @@ from nddl_lang.semantics.schema import Schema, SideTables
 from nddl_lang.semantics.scope import Context, Deferred, names_in
 from nddl_lang.semantics.statement import check_statement
 from nddl_lang.semantics.symbol_table import Entry, SymbolTable, told
-from nddl_lang.syntax.codes import MISSING_FILE, TOO_DEEP, UNCLOSED_COMMENT, UNREADABLE_FILE
+from nddl_lang.syntax.codes import MISSING_FILE, TOO_DEEP, TOO_LARGE, UNCLOSED_COMMENT, UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import LoadedModules, load_module_graph
 from nddl_lang.syntax.nodes import (
@@ -31,10 +31,11 @@ from nddl_lang.syntax.nodes import (
     TypedefDecl,
     VariableDecl,
 )
+from nddl_lang.syntax.parser import MOST_LEXEMES
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.source import Source, Span
 
-_TEXT_IS_MISSING = (MISSING_FILE, UNREADABLE_FILE, TOO_DEEP, UNCLOSED_COMMENT)
+_TEXT_IS_MISSING = (MISSING_FILE, UNREADABLE_FILE, TOO_DEEP, TOO_LARGE, UNCLOSED_COMMENT)
 _UNKNOWN = (UNKNOWN_NAME, UNKNOWN_TYPE, UNKNOWN_CLASS)
 _INCLUDING = frozenset(("include", "import", "using"))
 _TABLES = tuple(table.name for table in fields(SideTables))
@@ -149,12 +150,13 @@ def analyse_file(
     dialect: Dialect | None = None,
     include_directories: Sequence[Path | str] = (),
     callables: Callables = NATIVE_CALLABLES,
+    most: int = MOST_LEXEMES,
 ) -> Analysis:
     """Read and analyse the file at `path` with all that it includes; raises OSError if it cannot be read.
 
     Without `dialect` the first line of the file decides, and where it is silent, nddlc.
     """
-    return analyse(load_module_graph(path, include_directories, dialect), callables)
+    return analyse(load_module_graph(path, include_directories, dialect, most=most), callables)
 
 
 def analyse_text(
@@ -163,9 +165,10 @@ def analyse_text(
     dialect: Dialect | None = None,
     include_directories: Sequence[Path | str] = (),
     callables: Callables = NATIVE_CALLABLES,
+    most: int = MOST_LEXEMES,
 ) -> Analysis:
     """Analyse a text that need not be in a file; `name` is what it is called, and where its includes start from."""
-    return analyse(load_module_graph(Source(name, text), include_directories, dialect), callables)
+    return analyse(load_module_graph(Source(name, text), include_directories, dialect, most=most), callables)
 
 
 def _check(symbols: SymbolTable, statement: Statement, dialect: Dialect, callables: Callables) -> _Unit:

@@ -56,7 +56,9 @@ def command(
         raise Unusable("`--reactor` names a reactor of a mission file, and this is a model")
     else:
         library = library_for(file, configured(file), is_trusted=is_trusted)
-        loaded = load(file, directories, chosen_dialect(ctx, dialect), library, path)
+        loaded = load(
+            file, directories, chosen_dialect(ctx, dialect), library, path, most=configured(file).most_lexemes
+        )
         if loaded.is_refused or loaded.database is None or loaded.program is None:
             for each in loaded.diagnostics:
                 click.echo(render(each, colour=colours()), err=True)

@@ -37,7 +37,7 @@ def command(
     models_only(files)
     for path, name in zip(readable(files, directories), files, strict=True):
         library = library_for(path, configured(path), is_trusted=is_trusted)
-        loaded = load(path, directories, chosen, library, name)
+        loaded = load(path, directories, chosen, library, name, most=configured(path).most_lexemes)
         plan = loaded.state()
         is_fine = is_fine and plan is not None and plan.is_consistent
         if as_json:

@@ -111,8 +111,9 @@ def command(
     configuration = _configuration(config)
     if horizon is not None and horizon[0] >= horizon[1]:
         raise Unusable(f"the horizon from {horizon[0]} to {horizon[1]} is empty")
-    library = library_for(path, configured(path), is_trusted=is_trusted)
-    loaded = load(path, directories, chosen_dialect(ctx, dialect), library, file, text)
+    settings = configured(path)
+    library = library_for(path, settings, is_trusted=is_trusted)
+    loaded = load(path, directories, chosen_dialect(ctx, dialect), library, file, text, settings.most_lexemes)
     before = loaded.state()
     if loaded.database is None or before is None:
         _show_refusal(loaded, as_json)

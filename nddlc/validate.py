@@ -25,7 +25,7 @@ from nddl_lang.analysis import analyse_file
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import render
 from nddl_lang.text.values import json_text
-from nddlc.inputs import Unusable, present, readable
+from nddlc.inputs import Unusable, configured, present, readable
 from nddlc.mission_trust import models_of
 from nddlc.trust import trust_option
 from runtime.executive.configuration import AgentConfiguration, ReactorConfiguration
@@ -212,7 +212,7 @@ def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> _Jud
     model = path.parent / data["model"]
     if not model.is_file():
         raise DocumentError(f"there is no model `{model}`")
-    analysis = analyse_file(model)
+    analysis = analyse_file(model, most=configured(model).most_lexemes)
     _refuse(analysis.diagnostics)
     program = compile_model(analysis)
     plan = read_plan(data, _base(program, _PLAN), program)._replace(reactor=_PLAN)

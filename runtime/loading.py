@@ -14,6 +14,7 @@ from compiler.program import Program
 from nddl_lang.analysis import Analysis, analyse, analyse_file, analyse_text
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import Module
+from nddl_lang.syntax.parser import MOST_LEXEMES
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import as_dict
 from runtime.plan.database import PlanDatabase
@@ -61,6 +62,7 @@ def load(
     library: Library = NO_LIBRARY,
     name: str | None = None,
     text: str | None = None,
+    most: int = MOST_LEXEMES,
 ) -> Loaded:
     """Analyse, compile and run the script of the model at `path`; the script stops at the first error.
 
@@ -68,9 +70,9 @@ def load(
     """
     file = name or str(path)
     if text is None:
-        analysis = analyse_file(path, dialect, directories, library.callables)
+        analysis = analyse_file(path, dialect, directories, library.callables, most)
     else:
-        analysis = analyse_text(str(path), text, dialect, directories, library.callables)
+        analysis = analyse_text(str(path), text, dialect, directories, library.callables, most)
     found = tuple(analysis.diagnostics)
     if any(each.severity is Severity.ERROR for each in found):
         fault = _fault_above(analysis, library)

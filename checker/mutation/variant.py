@@ -12,7 +12,7 @@ from compiler.program import Program
 from nddl_lang.analysis import Analyser
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import LoadedModules, load_module_graph
-from nddl_lang.syntax.parser import Parse, parse, parse_members
+from nddl_lang.syntax.parser import MOST_ASKED_FOR, Parse, parse, parse_members
 from nddl_lang.text.read import read_text, real_path
 from nddl_lang.text.source import Source
 from runtime.executive.configuration import AgentConfiguration
@@ -69,7 +69,7 @@ _solver, _code = cache(load_solver), cache(load_code)
 @lru_cache(maxsize=_MOST_PARSES)
 def _parsed(name: str, text: str, dialect: Dialect, is_in_class: bool) -> Parse:
     source = Source(name, text)
-    return parse_members(source, dialect) if is_in_class else parse(source, dialect)
+    return (parse_members if is_in_class else parse)(source, dialect, MOST_ASKED_FOR)
 
 
 def load_graph(path: Path, overlay: Overlay) -> LoadedModules:
@@ -77,6 +77,7 @@ def load_graph(path: Path, overlay: Overlay) -> LoadedModules:
     return load_module_graph(
         path,
         open_text=open_over(overlay),
+        most=MOST_ASKED_FOR,  # that it is not too large was seen before
         parse_text=lambda _, source, dialect, is_in_class: _parsed(source.name, source.text, dialect, is_in_class),
     )
 

@@ -7,7 +7,7 @@ from nddl_lang.formatter.spacing import BLANKS
 from nddl_lang.formatter.writer import Writer
 from nddl_lang.syntax.codes import INTEGER_RANGE, UNKNOWN_ESCAPE
 from nddl_lang.syntax.dialect import Dialect
-from nddl_lang.syntax.parser import Parse, parse
+from nddl_lang.syntax.parser import MOST_ASKED_FOR, MOST_LEXEMES, Parse, parse
 from nddl_lang.syntax.piece import Piece
 from nddl_lang.syntax.walk import same_tree
 from nddl_lang.text.diagnostic import Diagnostic, Severity
@@ -27,16 +27,18 @@ class Formatted:
     diagnostics: tuple[Diagnostic, ...]
 
 
-def format_text(text: str, dialect: Dialect = Dialect.NDDLC, name: str = "text") -> Formatted:
+def format_text(text: str, dialect: Dialect = Dialect.NDDLC, name: str = "text", most: int = MOST_LEXEMES) -> Formatted:
     """`text` in the style."""
-    return format_parse(parse(Source(name, text), dialect))
+    return format_parse(parse(Source(name, text), dialect, most))
 
 
 def format_parse(parsed: Parse) -> Formatted:
     """The text of `parsed` in the style; as it is where another layout would make more, or less, of its mistakes."""
+    if not parsed.pieces:  # nothing of it was understood
+        return Formatted(parsed.source.text, parsed.diagnostics)
     written = _written(parsed)
     if written != parsed.source.text and any(_leaves_doubt(diagnostic) for diagnostic in parsed.diagnostics):
-        again = parse(Source(parsed.source.name, written), parsed.dialect)
+        again = parse(Source(parsed.source.name, written), parsed.dialect, MOST_ASKED_FOR)
         if not same_tree(parsed.module, again.module) or _written(again) != written:
             written = parsed.source.text
     return Formatted(written, parsed.diagnostics)

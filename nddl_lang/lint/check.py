@@ -75,7 +75,7 @@ class Checker:
 
     def _check(self, source: Source, settings: Settings, *, is_counted: bool = False) -> tuple[Diagnostic, ...]:
         directories = (*self._directories, *settings.directories)
-        loaded = load_module_graph(source, directories, self._dialect or settings.dialect)
+        loaded = load_module_graph(source, directories, self._dialect or settings.dialect, most=settings.most_lexemes)
         for included, place in loaded.paths.items():
             if included is not source and (part := real_path(place)) in self._parts:
                 self._part_of[included] = part

@@ -11,6 +11,7 @@ from typing import Any
 from nddl_lang.lint.codes import NOT_TOML, UNKNOWN_KEY, WRONG_VALUE
 from nddl_lang.lint.settings import ProjectModule, Settings
 from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.syntax.parser import MOST_ASKED_FOR, MOST_LEXEMES
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import NotAFileError, read_text, real_path
@@ -36,6 +37,12 @@ def find_configuration(directory: Path) -> Path | None:
             if path.is_file() and (name == NAME or _has_section(path)):
                 return path
     return None
+
+
+def most_lexemes(directory: Path) -> int:
+    """How many lexemes a model in `directory` may have."""
+    path = find_configuration(directory)
+    return MOST_LEXEMES if path is None else read_configuration(path)[0].most_lexemes
 
 
 def _has_section(path: Path) -> bool:
@@ -96,6 +103,7 @@ class _Reader:
             "include": lambda key, value: {"directories": tuple(self._directories(key, value))},
             "dialect": lambda key, value: {"dialect": self._one_of(key, value, _DIALECTS)},
             "fail-on": lambda key, value: {"fail_on": self._one_of(key, value, _FAIL_ON, Severity.WARNING)},
+            "max-lexemes": lambda key, value: {"most_lexemes": self._count(key, value)},
             "constraints": self._constraints,
             "severity": lambda key, value: {"severities": tuple(self._weights(key, value))},
         }
@@ -176,6 +184,12 @@ class _Reader:
             return choices[value]
         self._wrong(key, key[-1], _choices(choices))
         return otherwise
+
+    def _count(self, key: Key, value: Any) -> int:
+        if isinstance(value, int) and not isinstance(value, bool) and 0 < value <= MOST_ASKED_FOR:
+            return value
+        self._wrong(key, key[-1], f"a whole number from 1 to {MOST_ASKED_FOR}")
+        return MOST_LEXEMES
 
     def _texts(self, key: Key, value: Any) -> list[str]:
         if isinstance(value, list) and all(isinstance(item, str) for item in value):

@@ -15,7 +15,7 @@ SETTINGS_PAGES = (
     RulePage(
         UNKNOWN_KEY,
         "The configuration has a key that means nothing; the keys are `select`, `ignore`, `include`, `dialect`, "
-        "`fail-on`, `constraints` and `severity`.",
+        "`fail-on`, `max-lexemes`, `constraints` and `severity`.",
         "A mistyped key would otherwise change nothing, and nobody would notice.",
         'selct = ["NDDL5"]\n',
         'select = ["NDDL5"]\n',

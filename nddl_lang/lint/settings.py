@@ -6,6 +6,7 @@ from pathlib import Path
 
 from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
 from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.syntax.parser import MOST_LEXEMES
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.source import Span
 
@@ -25,7 +26,8 @@ class Settings:
     Codes may be cut short: `NDDL5` means all that begin so. `severities` maps codes to what they weigh, None meaning
     not at all. `fail_on` None: findings never make the command fail. `modules` are the Python files with the project's
     own constraints, and `seconds` how long one call of theirs may take, None for the usual limit; `callables` is what
-    models may call with them, which is not found out here. `folder` is that of the configuration file, if there is one.
+    models may call with them, which is not found out here. A model
+    may have `most_lexemes`. `folder` is that of the configuration file, if there is one.
     """
 
     select: tuple[str, ...] = ()
@@ -38,6 +40,7 @@ class Settings:
     seconds: float | None = None
     callables: Callables = NATIVE_CALLABLES
     folder: Path | None = None
+    most_lexemes: int = MOST_LEXEMES
 
     def choose(self, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
         """The findings that are asked for; an error always is."""

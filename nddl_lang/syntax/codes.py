@@ -12,6 +12,7 @@ MALFORMED_NUMBER = Code("NDDL105", Severity.ERROR, "syntax", "`{text}` is no num
 INTEGER_RANGE = Code("NDDL106", Severity.ERROR, "domain", "`{text}` does not fit in {bits} bits")
 UNDECODABLE = Code("NDDL107", Severity.WARNING, "syntax", "these bytes are not UTF-8 text")
 NOT_TEXT = Code("NDDL108", Severity.ERROR, "syntax", "this file is no text in UTF-8")
+TOO_LARGE = Code("NDDL109", Severity.ERROR, "syntax", "here the model has more than {limit} lexemes, and is not read")
 
 # ---- statements ----
 

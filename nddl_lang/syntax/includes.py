@@ -2,14 +2,22 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
-from nddl_lang.syntax.codes import INCLUDE_AGAIN, INCLUDE_CYCLE, MISSING_FILE, NOT_TEXT, TOO_DEEP, UNREADABLE_FILE
+from nddl_lang.syntax.codes import (
+    INCLUDE_AGAIN,
+    INCLUDE_CYCLE,
+    MISSING_FILE,
+    NOT_TEXT,
+    TOO_DEEP,
+    UNREADABLE_FILE,
+)
 from nddl_lang.syntax.dialect import Dialect, declared_dialect
 from nddl_lang.syntax.nodes import ClassDecl, Include, Module, Statement
-from nddl_lang.syntax.parser import Parse, parse, parse_members
-from nddl_lang.syntax.roots import model_meant
+from nddl_lang.syntax.parser import MOST_LEXEMES, Parse, parse, parse_members, too_large
+from nddl_lang.syntax.roots import listed_models, model_meant
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 from nddl_lang.text.read import decode, is_text, read_named, read_text, real_path
 from nddl_lang.text.source import Anchor, Source, Span
@@ -48,14 +56,15 @@ def load_module_graph(
     *,
     open_text: OpenText = read_text,
     parse_text: ParseText | None = None,
+    most: int = MOST_LEXEMES,
 ) -> LoadedModules:
     """Read `root` and all that it includes.
 
     Each file is read once, known by its resolved path. It is looked for beside the including file, in
     `include_directories`, in the current directory, and in the library. Without `dialect` the first line of `root`
     decides, and where it is silent, nddlc. An editor passes `open_text` to show texts that are not saved yet, and
-    `parse_text` to reuse what it has parsed; the source of the parse that it returns counts. Raises OSError if
-    `root` itself cannot be read.
+    `parse_text` to reuse what it has parsed; the source of the parse that it returns counts. A model of more than
+    `most` lexemes is one complaint, and has no statements. Raises OSError if `root` itself cannot be read.
     """
     if isinstance(root, Source):
         source = root
@@ -68,39 +77,46 @@ def load_module_graph(
         source = Source(str(root), text)
     chosen = dialect or declared_dialect(source.text) or Dialect.NDDLC
     directories = [Path(directory) for directory in include_directories]
-    loader = _Loader(directories, chosen, open_text, parse_text or _parse_text)
+    loader = _Loader(directories, chosen, open_text, parse_text or partial(_parse_text, most), most)
     statements = loader.load(source, Path(source.name), False)
+    diagnostics = loader.diagnostics if loader.too_large is None else [loader.too_large]
     return LoadedModules(
         loader.parses[0].source,
         chosen,
-        Module(tuple(statements)),
+        Module(() if loader.too_large else tuple(statements)),
         tuple(loader.paths),
-        tuple(loader.diagnostics),
+        tuple(diagnostics),
         loader.included,
         loader.paths,
         tuple(loader.parses),
     )
 
 
-def _parse_text(path: Path, source: Source, dialect: Dialect, is_in_class: bool) -> Parse:
+def _parse_text(most: int, path: Path, source: Source, dialect: Dialect, is_in_class: bool) -> Parse:
     del path
-    return parse_members(source, dialect) if is_in_class else parse(source, dialect)
+    return parse_members(source, dialect, most) if is_in_class else parse(source, dialect, most)
 
 
 class _Loader:
     """Reads files once, in the order of the includes, and collects what they hold."""
 
-    def __init__(self, directories: list[Path], dialect: Dialect, open_text: OpenText, parse_text: ParseText) -> None:
+    def __init__(
+        self, directories: list[Path], dialect: Dialect, open_text: OpenText, parse_text: ParseText, most: int
+    ) -> None:
         self._directories = directories
         self._dialect = dialect
         self._open_text = open_text
         self._parse_text = parse_text
+        self._most = most
+        self._size = 0
+        self._listed = cache(listed_models)
         self._read: dict[Path, Source] = {}
         self._chain: list[tuple[Path, Include | None]] = []
         self.paths: dict[Source, Path] = {}
         self.included: dict[Include, Source] = {}
         self.diagnostics: list[Diagnostic] = []
         self.parses: list[Parse] = []
+        self.too_large: Diagnostic | None = None
 
     def load(self, source: Source, path: Path, is_in_class: bool, include: Include | None = None) -> list[Any]:
         """The statements of `source` and, in their places, those of what it includes."""
@@ -120,6 +136,10 @@ class _Loader:
             self.included[include] = source
         self._chain.append((resolved, include))
         self.parses.append(parsed)
+        self._size += parsed.size
+        if self._size > self._most and self.too_large is None:
+            place = parsed.diagnostics[0].span if parsed.size > self._most or include is None else include.span
+            (self.too_large,) = self._with_chain((too_large(place, self._most),))
         pending = iter(self._with_chain(parsed.diagnostics))
         upcoming = next(pending, None)
         loaded: list[Any] = []
@@ -148,7 +168,9 @@ class _Loader:
         return [statement]
 
     def _follow(self, include: Include, is_in_class: bool) -> list[Any]:
-        """What `include` brings; nothing if it was brought before."""
+        """What `include` brings; nothing if it was brought before, or nothing counts any more."""
+        if self.too_large is not None:
+            return []
         name = include.path.value
         try:
             found = self._find(name)
@@ -193,7 +215,7 @@ class _Loader:
 
     def _meant(self, name: str) -> str | None:
         """The model beside the including text, or of the library, that a name was meant to be."""
-        return model_meant(name, self.paths[self._read[self._chain[-1][0]]].parent, LIBRARY)
+        return model_meant(name, self.paths[self._read[self._chain[-1][0]]].parent, LIBRARY, self._listed)
 
     def _report(self, diagnostic: Diagnostic) -> None:
         self.diagnostics += self._with_chain((diagnostic,))

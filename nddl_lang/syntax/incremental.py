@@ -4,7 +4,7 @@ from bisect import bisect_left
 from collections.abc import Callable
 
 from nddl_lang.syntax.dialect import Dialect
-from nddl_lang.syntax.parser import Parse, collect, understand
+from nddl_lang.syntax.parser import MOST_LEXEMES, Parse, collect, parse_block, understand
 from nddl_lang.syntax.piece import Piece
 from nddl_lang.syntax.placement import TOP, BlockGrammar
 from nddl_lang.syntax.scan import Scanner
@@ -18,10 +18,13 @@ class Incremental:
     soon as it comes to a place where a piece began before, in text that is the same to the end.
     """
 
-    def __init__(self, name: str, dialect: Dialect = Dialect.NDDLC, block: BlockGrammar = TOP) -> None:
+    def __init__(
+        self, name: str, dialect: Dialect = Dialect.NDDLC, block: BlockGrammar = TOP, most: int = MOST_LEXEMES
+    ) -> None:
         self._name = name
         self._dialect = dialect
         self._block = block
+        self._most = most
         self._text = ""
         self._pieces: tuple[Piece, ...] = ()
 
@@ -31,10 +34,12 @@ class Incremental:
         old = self._pieces
         prefix, suffix = common_ends(self._text, text)
         shift = len(text) - len(self._text)
+        size = 0
         starts = [piece.anchor.offset for piece in old]
 
         kept = 0
         while kept < len(old) and starts[kept] + old[kept].reach <= prefix:
+            size += old[kept].size
             kept += 1
         pieces = list(old[:kept])
         at = pieces[-1].anchor.offset + pieces[-1].length if pieces else 0
@@ -50,7 +55,10 @@ class Incremental:
                 if before < len(old) and starts[before] == at - shift and (at == 0) == (at == shift):
                     rest = before
                     break
-            piece = scanner.read(at)
+            piece = scanner.read(at, self._most - size)
+            size += piece.size
+            if size > self._most:
+                return self._again(source)
             same = replaced.pop(text[at : at + piece.length], None)
             if same is not None and same.kinds == piece.kinds and not piece.mends and not piece.diagnostics:
                 piece = self._moved(same, source, at, piece.reach)
@@ -59,6 +67,8 @@ class Incremental:
             pieces.append(piece)
             at += piece.length
 
+        if size + sum(piece.size for piece in old[rest:]) > self._most:
+            return self._again(source)
         for piece in pieces[:kept]:
             piece.anchor.source = source
         for piece in old[rest:]:
@@ -67,6 +77,11 @@ class Incremental:
         self._text = text
         self._pieces = (*pieces, *old[rest:])
         return collect(source, self._dialect, self._pieces)
+
+    def _again(self, source: Source) -> Parse:
+        """The parse of a text that is too large, of which nothing is kept."""
+        self._text, self._pieces = "", ()
+        return parse_block(source, self._dialect, self._block, self._most)
 
     @staticmethod
     def _moved(piece: Piece, source: Source, offset: int, reach: int) -> Piece:

@@ -7,6 +7,7 @@ from nddl_lang.syntax.codes import (
     MALFORMED_NUMBER,
     MISSING_FILE,
     NOT_TEXT,
+    TOO_LARGE,
     UNCLOSED_COMMENT,
     UNCLOSED_STRING,
     UNDECODABLE,
@@ -14,6 +15,7 @@ from nddl_lang.syntax.codes import (
     UNKNOWN_ESCAPE,
     UNREADABLE_FILE,
 )
+from nddl_lang.syntax.parser import MOST_ASKED_FOR, MOST_LEXEMES
 from nddl_lang.text.page import RulePage
 
 _STRICT = "// nddlc: dialect=nddl3\n"
@@ -80,6 +82,16 @@ LEXEME_PAGES = (
         "Nothing in it is looked at, as each of its bytes would be another complaint.",
         "\ufffdPNG\ufffd\ufffd\ufffd\ufffdIHDR\ufffd\ufffd\ufffd\ufffd\ufffd\ufffd\ufffd\ufffd\ufffd\ufffd\ufffd\n",
         "int a = 1;\n",
+    ),
+    RulePage(
+        TOO_LARGE,
+        f"With all that it includes, the model has more than {MOST_LEXEMES} lexemes: words, numbers, strings, signs "
+        f"and comments. `max-lexemes` in the configuration sets another limit, up to {MOST_ASKED_FOR}.",
+        "What a command needs grows with them: at the limit about 300 MB and some seconds. The largest public model "
+        "has fewer than 2,000. Nothing of a larger one is analysed.",
+        "max-lexemes = 1000\n",
+        "max-lexemes = 400000\n",
+        "toml",
     ),
     RulePage(
         MISSING_FILE,

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from nddl_lang.syntax.codes import TOO_LARGE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.driver import parse_piece
 from nddl_lang.syntax.nodes import BrokenStatement, Module, Statement
@@ -10,18 +11,26 @@ from nddl_lang.syntax.piece import Piece
 from nddl_lang.syntax.placement import CLASS, TOP, BlockGrammar
 from nddl_lang.syntax.scan import Scanner
 from nddl_lang.text.diagnostic import Diagnostic
-from nddl_lang.text.source import Source, Span
+from nddl_lang.text.source import Anchor, Source, Span
+
+# Lexemes and comments of a model: a hundred times those of the largest in public. A project may ask for more.
+MOST_LEXEMES = 125_000
+MOST_ASKED_FOR = 1_000_000
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Parse:
-    """One text and what was understood of it; the pieces tile the text, one for each top-level statement."""
+    """One text and what was understood of it; the pieces tile the text, one for each top-level statement.
+
+    Nothing is understood of a text whose `size` is above the limit: it has no pieces.
+    """
 
     source: Source
     dialect: Dialect
     module: Module
     diagnostics: tuple[Diagnostic, ...]
     pieces: tuple[Piece, ...]
+    size: int = 0
 
     @property
     def comments(self) -> Iterator[Span]:
@@ -29,26 +38,42 @@ class Parse:
         return (piece.span(start, end) for piece in self.pieces for start, end in piece.comments)
 
 
-def parse(source: Source, dialect: Dialect = Dialect.NDDLC) -> Parse:
+def parse(source: Source, dialect: Dialect = Dialect.NDDLC, most: int = MOST_LEXEMES) -> Parse:
     """Understand `source`; whatever it holds, this returns."""
-    return _parse(source, dialect, TOP)
+    return parse_block(source, dialect, TOP, most)
 
 
-def parse_members(source: Source, dialect: Dialect = Dialect.NDDLC) -> Parse:
+def parse_members(source: Source, dialect: Dialect = Dialect.NDDLC, most: int = MOST_LEXEMES) -> Parse:
     """Understand `source` as what is included between the members of a class."""
-    return _parse(source, dialect, CLASS)
+    return parse_block(source, dialect, CLASS, most)
 
 
-def _parse(source: Source, dialect: Dialect, block: BlockGrammar) -> Parse:
+def parse_block(source: Source, dialect: Dialect, block: BlockGrammar, most: int) -> Parse:
+    """Understand `source` as what stands in a block, unless it is larger than `most`."""
     scanner = Scanner(source, dialect is Dialect.NDDL3)
     pieces = []
-    at = 0
+    at = size = 0
     while at < len(source.text):
-        piece = scanner.read(at)
+        piece = scanner.read(at, most - size)
+        size += piece.size
+        if size > most:
+            return _too_large(source, dialect, piece, size, most)
         understand(piece, dialect, block)
         pieces.append(piece)
         at += piece.length
     return collect(source, dialect, tuple(pieces))
+
+
+def _too_large(source: Source, dialect: Dialect, piece: Piece, size: int, most: int) -> Parse:
+    start = piece.anchor.offset + (piece.starts[0] if piece.starts else 0)
+    place = Span(Anchor(source), start, min(start + 1, len(source.text)))
+    return Parse(source, dialect, Module(()), (too_large(place, most),), (), size)
+
+
+def too_large(place: Span, most: int) -> Diagnostic:
+    """The complaint about a model of more than `most` lexemes, at the place that brings more."""
+    help_ = f"`max-lexemes` in nddlc.toml allows up to {MOST_ASKED_FOR}" if most < MOST_ASKED_FOR else None
+    return TOO_LARGE.at(place, help=help_, limit=most)
 
 
 def understand(piece: Piece, dialect: Dialect, block: BlockGrammar = TOP) -> None:
@@ -67,8 +92,10 @@ def collect(source: Source, dialect: Dialect, pieces: tuple[Piece, ...]) -> Pars
     """What the pieces of one text hold together."""
     statements: list[Statement] = []
     diagnostics: list[Diagnostic] = []
+    size = 0
     for piece in pieces:
+        size += piece.size
         statements += piece.statements
         if piece.diagnostics:
             diagnostics += piece.diagnostics
-    return Parse(source, dialect, Module(tuple(statements)), tuple(diagnostics), pieces)
+    return Parse(source, dialect, Module(tuple(statements)), tuple(diagnostics), pieces, size)

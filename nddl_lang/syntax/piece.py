@@ -11,7 +11,8 @@ class Piece:
 
     `kinds`, `texts`, `starts` and `ends` are its lexemes; `docs` maps the start of a lexeme to the doc comment
     above it. `mends` are braces to put in before a lexeme, or, where the text is empty, lexemes to leave out, in order.
-    `reach` tells how far the text was looked at: an edit beyond it leaves the piece as it is.
+    `reach` tells how far the text was looked at: an edit beyond it leaves the piece as it is. `size` counts lexemes,
+    comments, and complaints of single characters.
     """
 
     __slots__ = (
@@ -28,6 +29,7 @@ class Piece:
         "length",
         "mends",
         "reach",
+        "size",
         "starts",
         "statements",
         "texts",
@@ -37,6 +39,7 @@ class Piece:
         self.anchor = anchor
         self.length = 0
         self.reach = 0
+        self.size = 0
         self.kinds: list[str] = []
         self.texts: list[str] = []
         self.starts: list[int] = []

@@ -9,13 +9,13 @@ from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_text, real_path
 
 _INCLUDE = re.compile(r'^[ \t]*#include[ \t]*"([^"\n]+)"', re.MULTILINE)
-_Listing = Callable[[Path], list[Path]]  # the models in a folder
+Listing = Callable[[Path], list[str]]  # the models in a folder, without `.nddl`
 
 
 def roots_among(files: Sequence[Path], directories: Sequence[Path] = ()) -> list[Path]:
     """The files that no other one includes; of files that include each other in a cycle, the first."""
     by_key = {real_path(file): file for file in files}
-    listed = cache(_models_in)
+    listed = cache(listed_models)
     included = {
         key: [each for each in _included(file, directories, listed) if each in by_key] for key, file in by_key.items()
     }
@@ -42,7 +42,7 @@ def parts_of(models: Sequence[Path], directories: Sequence[Path] = ()) -> frozen
 
 def _closure(files: Sequence[Path], directories: Sequence[Path]) -> set[Path]:
     """Files and all that they include, directly or not."""
-    listed = cache(_models_in)
+    listed = cache(listed_models)
     included: dict[Path, list[Path]] = {}
     pending = list(files)
     while pending:
@@ -64,7 +64,7 @@ def _reached(files: Sequence[Path], included: Mapping[Path, Sequence[Path]]) -> 
     return reached
 
 
-def _included(file: Path, directories: Sequence[Path], listed: _Listing) -> list[Path]:
+def _included(file: Path, directories: Sequence[Path], listed: Listing) -> list[Path]:
     """The files that a file includes itself, resolved: of each name the first that exists."""
     found: list[Path] = []
     if not _is_file(file):
@@ -93,22 +93,24 @@ def _text(file: Path) -> str:
         return ""
 
 
-def _models_in(folder: Path) -> list[Path]:
-    """The models in a folder, in the order of their names; none where it cannot be read."""
+def listed_models(folder: Path) -> list[str]:
+    """The models in a folder, without `.nddl`, in the order of their names; none where it cannot be read."""
     try:
-        return sorted(path for path in folder.iterdir() if path.suffix == ".nddl")
+        return sorted(path.stem for path in folder.iterdir() if path.suffix == ".nddl")
     except (OSError, ValueError):
         return []
 
 
-def model_meant(name: str, folder: Path, library: Path | None = None, listed: _Listing = _models_in) -> str | None:
+def model_meant(name: str, folder: Path, library: Path | None, listed: Listing) -> str | None:
     """The model in the folder of an including text, or of the library, that the name of a missing file stands for."""
+    path = Path(name)
+    within = path.parent
     try:
-        found = listed(folder / Path(name).parent)
+        found = listed(folder / within)
     except ValueError:  # a name that no file can have
         return None
-    if library is not None and Path(name).name == name:
+    if library is not None and path.name == name:
         found = [*found, *listed(library)]
-    stems = [path.stem for path in found]
-    meant = Path(name).stem if Path(name).stem in stems else nearest(Path(name).stem, stems)
-    return None if meant is None else str(Path(name).parent / f"{meant}.nddl")
+    stem = path.stem
+    meant = stem if stem in found else nearest(stem, found)
+    return None if meant is None else str(within / f"{meant}.nddl")

@@ -4,6 +4,7 @@ Reading a piece depends on nothing before it, so the incremental parser can star
 """
 
 import re
+from itertools import islice
 
 from nddl_lang.syntax.braces import (
     close_body,
@@ -81,8 +82,11 @@ class Scanner:
         self._is_strict = is_strict
         self._has_undecodable = "\ufffd" in source.text
 
-    def read(self, base: int) -> Piece:
-        """The piece that begins at offset `base`; its offsets are absolute until it is finished."""
+    def read(self, base: int, most: int) -> Piece:
+        """The piece that begins at offset `base`; one whose size is above `most` is not read to its end.
+
+        Its offsets are absolute until it is finished.
+        """
         text = self._source.text
         piece = self._piece = Piece(Anchor(self._source, base))
         self._base = base
@@ -96,7 +100,12 @@ class Scanner:
         if base == 0 and text.startswith("\ufeff"):
             at = self._skip_byte_order_mark()
         while at >= 0:
-            for match in _MASTER.finditer(text, at):
+            # A match adds one to the size, or two, or nothing.
+            ahead = most + 1 - self._size()
+            if ahead <= 0:
+                break
+            finish = -1
+            for match in islice(_MASTER.finditer(text, at), ahead):
                 group = match.lastindex or 0
                 start, finish = match.span(group)
                 word = match[group]
@@ -131,9 +140,13 @@ class Scanner:
                     at = ~at
                     break
             else:
-                at = -1
+                at = finish
         self._finish()
         return piece
+
+    def _size(self) -> int:
+        piece = self._piece
+        return len(piece.kinds) + len(piece.comments) + len(piece.diagnostics)
 
     # ---- the end of a piece ----
 
@@ -149,6 +162,7 @@ class Scanner:
         # What the next character is decides whether the last lexeme ends here.
         piece.reach = max(piece.reach - base, piece.length + 1)
         piece.comments = [(start - base, end - base) for start, end in piece.comments if start < self._end]
+        piece.size = self._size()
         if base:
             piece.starts = [start - base for start in piece.starts]
             piece.ends = [end - base for end in piece.ends]

@@ -15,7 +15,7 @@ FIXTURES = Path(__file__).parent / "fixtures"
 PATHS = sorted(FIXTURES.rglob("*.nddl"))
 CODES = [value for value in vars(codes).values() if isinstance(value, Code)]
 # What cannot be marked in a text, or is no matter of one text; other tests show these.
-ELSEWHERE = {codes.NOT_TEXT, codes.TOO_DEEP, codes.COMMENT_AT_END, codes.BYTE_ORDER_MARK}
+ELSEWHERE = {codes.NOT_TEXT, codes.TOO_DEEP, codes.TOO_LARGE, codes.COMMENT_AT_END, codes.BYTE_ORDER_MARK}
 
 
 def complaints(text: str) -> tuple[Diagnostic, ...]:
