@@ -4,10 +4,13 @@ import ast
 import re
 from collections import defaultdict
 from collections.abc import Callable, Iterator
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
+
+from tests.module_names import public_names, signature_names, used_names
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -52,13 +55,20 @@ def sources(root: Path, *folders: str) -> list[Path]:
     return sorted(path for folder in folders for path in (root / folder).rglob("*.py"))
 
 
-def imports(path: Path) -> Iterator[tuple[int, str]]:
-    """Yield the line and the whole name of each import; `from a import b` is `a.b`, which may be a name in `a`."""
-    for node in ast.walk(ast.parse(path.read_bytes())):
+def imports(path: Path) -> tuple[tuple[int, str], ...]:
+    """The line and the whole name of each import; `from a import b` is `a.b`, which may be a name in `a`."""
+    return _imports(path.read_bytes())
+
+
+@cache
+def _imports(text: bytes) -> tuple[tuple[int, str], ...]:
+    found: list[tuple[int, str]] = []
+    for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Import):
-            yield from ((node.lineno, alias.name) for alias in node.names)
+            found += [(node.lineno, alias.name) for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
-            yield from ((node.lineno, f"{'.' * node.level}{node.module or ''}.{alias.name}") for alias in node.names)
+            found += [(node.lineno, f"{'.' * node.level}{node.module or ''}.{alias.name}") for alias in node.names]
+    return tuple(found)
 
 
 def layer_breaks(root: Path) -> Iterator[str]:
@@ -157,11 +167,16 @@ def captions(root: Path) -> Iterator[str]:
         )
 
 
+_HIDING = re.compile(
+    rb"^(?!from |import )[^#\n]*\bimport\b|import\s*\(?\s*\*|TYPE_CHECKING|__import__|import_module", re.MULTILINE
+)
+
+
 def hidden_imports(root: Path) -> Iterator[str]:
     """Complain of imports that a reader of the head of the file does not see."""
     for path in sources(root, *LAYERS, *OTHER_FOLDERS):
-        tree = ast.parse(path.read_bytes())
-        for node in ast.walk(tree):
+        text = path.read_bytes()
+        for node in ast.walk(ast.parse(text)) if _HIDING.search(text) else ():
             place = f"{path.relative_to(root)}:{getattr(node, 'lineno', 0)}"
             if isinstance(node, ast.ImportFrom) and any(alias.name == "*" for alias in node.names):
                 yield f"{place}: a star import"
@@ -186,19 +201,6 @@ def lone_layouts(root: Path) -> Iterator[str]:
                 yield f"{path.relative_to(root)}: only runtime is compiled"
 
 
-def public_names(tree: ast.Module) -> Iterator[tuple[str, int, bool]]:
-    """Yield name, line and whether it is a class, of each public function, class and constant of a file."""
-    for node in tree.body:
-        names: list[str] = []
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-            names = [node.name]
-        elif isinstance(node, ast.Assign):
-            names = [each.id for target in node.targets for each in ast.walk(target) if isinstance(each, ast.Name)]
-        elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
-            names = [node.target.id]
-        yield from ((name, node.lineno, isinstance(node, ast.ClassDef)) for name in names if not name.startswith("_"))
-
-
 def twins(root: Path) -> Iterator[str]:
     """Complain of a public class name that is defined in two files."""
     homes = defaultdict(list)
@@ -207,44 +209,6 @@ def twins(root: Path) -> Iterator[str]:
             if is_class:
                 homes[name].append(f"{path.relative_to(root).as_posix()}:{line}")
     yield from (f"class {name} in {' and '.join(places)}" for name, places in sorted(homes.items()) if places[1:])
-
-
-def used_names(path: Path, tree: ast.Module) -> Iterator[tuple[str, str]]:
-    """Yield module and name of all that a file takes from others: by name, through a module, or for its C types."""
-    known: dict[str, str] = {}
-    for node in ast.walk(tree):
-        if isinstance(node, ast.ImportFrom):
-            yield from ((node.module or "", alias.name) for alias in node.names)
-            known |= {alias.asname or alias.name: f"{node.module}.{alias.name}" for alias in node.names}
-        elif isinstance(node, ast.Import):
-            known |= {alias.asname or alias.name: alias.name for alias in node.names}
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Attribute) and (module := known.get(ast.unparse(node.value))) is not None:
-            yield module, node.attr
-    layout = path.with_suffix(".pxd")
-    declared = layout.read_text() if layout.exists() else ""
-    for module, many, one in re.findall(r"^from (\S+) cimport (?:\(([^)]*)\)|(.*))", declared, re.MULTILINE):
-        yield from ((module, name) for name in re.findall(r"\w+", many or one))
-
-
-def signature_names(tree: ast.Module) -> set[str]:
-    """The names in annotations and bases of what is public: who uses one holds the other, though without its name."""
-    shown: list[ast.AST] = []
-    for node in tree.body:
-        inside = node.body if isinstance(node, ast.ClassDef) else []
-        for each in (node, *inside):
-            if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef) and not each.name.startswith("_"):
-                arguments = (*each.args.posonlyargs, *each.args.args, *each.args.kwonlyargs)
-                shown += [part for part in (each.returns, *(one.annotation for one in arguments)) if part is not None]
-            elif isinstance(each, ast.AnnAssign):
-                shown.append(each.annotation)
-            elif isinstance(each, ast.ClassDef):
-                shown += each.bases
-            elif isinstance(each, ast.Assign) and isinstance(each.value, ast.BinOp | ast.Subscript):
-                shown.append(each.value)  # a type with a name
-    return {
-        name.id for part in shown for name in ast.walk(part) if isinstance(name, ast.Name) and not name.id.isupper()
-    }
 
 
 def doors(root: Path) -> Iterator[str]:

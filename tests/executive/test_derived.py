@@ -1,5 +1,7 @@
 """Missions whose traces were derived by hand from the reference of T-REX before they were flown."""
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 import pytest
@@ -47,7 +49,7 @@ class Derived(NamedTuple):
     flyers: tuple[Flyer, ...]
     goals: tuple[GoalConfiguration, ...]
     seen: dict[str, str]  # by timeline: ticks and predicates
-    counts: dict[str, int] = {}
+    counts: Mapping[str, int] = MappingProxyType({})
     until: int = 60
     code: str = ""
 
