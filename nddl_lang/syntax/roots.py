@@ -3,11 +3,13 @@
 import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
+from itertools import islice
 from pathlib import Path
 
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_text, real_path
 
+_MOST_INCLUDES = 10_000  # of a file that are looked at
 _INCLUDE = re.compile(r'^[ \t]*#include[ \t]*"([^"\n]+)"', re.MULTILINE)
 Listing = Callable[[Path], list[str]]  # the models in a folder, without `.nddl`
 
@@ -69,7 +71,8 @@ def _included(file: Path, directories: Sequence[Path], listed: Listing) -> list[
     found: list[Path] = []
     if not _is_file(file):
         return found  # what comes through a pipe can be read only once
-    for name in _INCLUDE.findall(_text(file)):
+    for include in islice(_INCLUDE.finditer(_text(file)), _MOST_INCLUDES):
+        name = include[1]
         places = (place / name for place in (file.parent, *directories) if "\0" not in name)
         target = next((real_path(path) for path in places if _is_file(path)), None)
         if target is None and "\0" not in name and (meant := model_meant(name, file.parent, None, listed)):

@@ -1,6 +1,6 @@
 """Show a stretch of text with its line numbers and carets under it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from unicodedata import category, east_asian_width
 
@@ -9,6 +9,8 @@ from nddl_lang.text.source import Source, Span
 _TAB = 4
 # A line longer than this is shown around the stretch only.
 _LONGEST = 140
+# And of a line no more is looked at than three such stretches.
+_ENORMOUS = 10_000
 # A stretch of more lines than this is shown by its first and last ones.
 _MOST_LINES = 6
 _EDGE = 2
@@ -23,10 +25,10 @@ def _width(letter: str) -> int:
     return 2 if east_asian_width(letter) in ("W", "F") else 1
 
 
-def _shown(line: str) -> tuple[str, list[int]]:
+def _shown(line: str) -> tuple[str, Sequence[int]]:
     """`line` as it can be printed, and the column at which each character, and the end, stands."""
     if line.isascii() and line.isprintable():
-        return line, list(range(len(line) + 1))
+        return line, range(len(line) + 1)
     letters: list[str] = []
     columns: list[int] = []
     column = 0
@@ -47,9 +49,11 @@ def _shown(line: str) -> tuple[str, list[int]]:
 
 
 @lru_cache(maxsize=8)  # many findings may stand in one long line
-def _shown_line(source: Source, number: int) -> tuple[str, list[int]]:
-    """A line of a source as it can be printed, and the column of each of its characters."""
-    return _shown(source.line(number))
+def _shown_line(source: Source, number: int, skipped: int = 0) -> tuple[str, Sequence[int]]:
+    """A stretch of a line of a source as it can be printed, and the column of each of its characters."""
+    start = source.line_starts[number - 1] + skipped
+    end = source.line_end(number)
+    return _shown(source.text[start : min(end, start + 3 * _ENORMOUS)].removesuffix("\r"))
 
 
 def _bounds(span: Span) -> tuple[tuple[int, int], tuple[int, int]]:
@@ -77,17 +81,19 @@ def excerpt(span: Span, mark: str = "^") -> Iterator[tuple[int | None, str, str]
             continue
         text, columns = _shown_line(span.source, number)
         if number == first:
-            left = columns[min(start - 1, len(columns) - 1)]
+            left = min(_LONGEST, columns[min(start - 1, len(columns) - 1)])
             yield number, "  " + _cropped(text), " " + "_" * (left + 1) + mark
         elif number == last:
-            right = columns[min(end - 1, len(columns) - 1)]
+            right = min(_LONGEST, columns[min(end - 1, len(columns) - 1)])
             yield number, "| " + _cropped(text), "|" + "_" * max(1, right) + mark
         else:
             yield number, "| " + _cropped(text), ""
 
 
 def _single(source: Source, number: int, start: int, end: int, mark: str) -> tuple[int, str, str]:
-    text, columns = _shown_line(source, number)
+    skipped = max(0, (start - 1) // _ENORMOUS - 1) * _ENORMOUS
+    text, columns = _shown_line(source, number, skipped)
+    start, end = start - skipped, end - skipped
     left = columns[min(start - 1, len(columns) - 1)]
     right = columns[min(end - 1, len(columns) - 1)]
     size = max(1, right - left)

@@ -92,6 +92,26 @@ MODELS: dict[str, str | bytes] = {
 }
 
 
+# Larger than a model may be: each is one message that says where.
+LARGE: dict[str, str] = {
+    "declarations on a line": "".join(f"int x{i} = 0; " for i in range(200_000)),
+    "declarations": "".join(f"int x{i} = 0;\n" for i in range(200_000)),
+    "one statement": "int " + ", ".join(f"x{i}" for i in range(300_000)) + ";\n",
+    "one rule": TIMELINE + "A::p {\n" + "int x; x == n;\n" * 200_000 + "}\n",
+    "one class": "class A { " + "int m; " * 100_000 + "}\n",
+    "semicolons": ";" * 300_000,
+    "signs that mean nothing": "@ " * 300_000,
+    "quotes": "'a' " * 300_000,
+    "comments": "/* a */ // b\n" * 100_000,
+    "doc comments": "/// a\nint b;\n" * 60_000,
+    "braces": "{}" * 200_000,
+    "words": "word " * 300_000,
+    "long words beyond ASCII": "größe " * 300_000,
+    "missing includes": "".join(f'#include "f{i}.nddl"\n' for i in range(100_000)),
+    "goals": TIMELINE + OBJECT + "goal(a.p); " * 50_000,
+}
+
+
 def in_mission(old: str, new: str) -> str:
     assert old in MISSION
     return MISSION.replace(old, new)
@@ -208,6 +228,25 @@ CHECK = "check --missions 2 --workers 1 --flights 0"
 def test_a_model(name: str, tmp_path: Path, commands: Commands) -> None:
     put(tmp_path / "m.nddl", MODELS[name])
     assert_ends(commands, tmp_path, "lint m.nddl", "fmt --check m.nddl", f"{PLAN} m.nddl")
+
+
+@pytest.mark.parametrize("name", LARGE)
+def test_a_model_too_large(name: str, tmp_path: Path, commands: Commands) -> None:
+    put(tmp_path / "m.nddl", LARGE[name])
+    others = ("load m.nddl", f"{PLAN} m.nddl", "check m.nddl") if name == "one statement" else ()
+    for line in ("lint m.nddl", "fmt --check m.nddl", *others):
+        assert_ends(commands, tmp_path, line)
+        told = (tmp_path / "said.txt").read_text(encoding="utf-8")
+        assert told.count("[NDDL") == 1 and "[NDDL109]" in told and "m.nddl:" in told
+
+
+@pytest.mark.parametrize("part", [2, 300])
+def test_a_model_too_large_by_its_includes(part: int, tmp_path: Path, commands: Commands) -> None:
+    for number in range(part):
+        put(tmp_path / f"p{number}.nddl", "int a;\n" * (10**5 // part + 1))
+    put(tmp_path / "m.nddl", "".join(f'#include "p{number}.nddl"\n' for number in range(part)))
+    assert_ends(commands, tmp_path, "lint m.nddl", "load m.nddl")
+    assert "[NDDL109]" in (tmp_path / "said.txt").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("name", MISSIONS)

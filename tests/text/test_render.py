@@ -131,6 +131,15 @@ def test_a_line_too_long_is_shown_around_the_place() -> None:
     assert line[carets.index("^") :].startswith("here")
 
 
+@pytest.mark.parametrize("letter", ["x", "é"])
+@pytest.mark.parametrize("before", [0, 139, 9_999, 19_930, 20_000, 29_999, 30_000, 10**6])
+def test_a_line_without_an_end_is_shown_like_a_long_one(letter: str, before: int) -> None:
+    shown = render(UNKNOWN.at(place(letter * before + "NAME" + letter * 10**5, "NAME"), name="NAME"))
+    line, carets = shown.splitlines()[3:5]
+    assert line[carets.index("^") : carets.index("^") + 5] == "NAME" + letter
+    assert carets.count("^") == 4 and line.endswith("...") and len(line) < 160
+
+
 def test_what_cannot_be_printed_is_replaced() -> None:
     text = "a \x1b[31m b\n"
     shown = render(UNUSED.at(place(text, "b"), name="b"))
