@@ -45,6 +45,8 @@ def relax(
     if late:
         bench.remove([token for token in late if not bench.is_freed(token)])
         stand(bench, timelines, seen)
+    if not bench.is_consistent():
+        return False
     if forget:
         past.keep(happened)
     return bench.is_consistent()

@@ -26,6 +26,12 @@ def test_a_random_agent_flies_as_it_must(seed: int) -> None:
     assert faults_of_seed(seed)[1] == []
 
 
+# A repair that forgets the past ends in a contradiction, where rules look back at what has happened.
+@pytest.mark.parametrize("seed", [*range(6), 8100003])
+def test_a_random_agent_with_guards_and_ties_flies_as_it_must(seed: int) -> None:
+    assert faults_of_seed(seed, wide=True)[1] == []
+
+
 def test_the_oracle_sees_what_is_told_twice(tmp_path: Path) -> None:
     agent = random_agent(0, plain=True)
     lines = lines_of(run_mission(*loaded(agent.write(tmp_path)), 1))

@@ -1,5 +1,6 @@
 """The detector of the INL mission: the hidden Markov model against its definition, and the thresholds."""
 
+import csv
 import math
 from pathlib import Path
 
@@ -10,7 +11,15 @@ from runtime.user.reactor_library import load_reactor
 
 INL = Path(__file__).parents[2] / "models" / "auv" / "inl"
 SETTINGS: dict[str, Value] = {"clusters": "clusters.csv", "prior": 0.05, "stay": 0.97, "enter": 0.9, "leave": 0.1}
-
+SURVEYOR: dict[str, Value] = {
+    "samplers": 10,
+    "width": 300.0,
+    "spacing": 50.0,
+    "lines": 4,
+    "linesPerFix": 4,
+    "top": 5.0,
+    "bottom": 60.0,
+}
 
 GOING = Seen("Run", {"kind": "YoYo"}, 0)
 
@@ -32,6 +41,53 @@ def test_the_belief_is_that_of_the_two_state_model() -> None:
         inside, outside = inside * likely, outside * (1 - likely)
         inside, outside = inside / (inside + outside), outside / (inside + outside)
         assert math.isclose(vars(detector)["belief"], inside, rel_tol=1e-3)
+
+
+def test_the_belief_over_all_39_clusters_is_that_of_a_forward_algorithm() -> None:
+    with (INL / "clusters.csv").open(encoding="utf-8") as file:
+        table = [(int(row["cluster"]), float(row["inside"])) for row in csv.DictReader(file)]
+    assert [cluster for cluster, _ in table] == list(range(39))
+    assert all(0.0 <= inside <= 1.0 for _, inside in table)
+    detector = load_reactor(INL, "detector.py", "Detector")(SETTINGS)
+    alpha = (0.95, 0.05)  # Outside, Inside; an emission is as probable as its row says, relative to the other state
+    states, told = [], ["Outside"]
+    for number, (cluster, inside) in enumerate([*table[::-1], *table, *table[20:], *table[:20]]):
+        found = heard(detector, 10 * number, cluster)
+        moved = [sum(alpha[a] * (0.97 if a == b else 0.03) for a in range(2)) for b in range(2)]
+        joint = (moved[0] * (1.0 - inside), moved[1] * inside)
+        alpha = (joint[0] / sum(joint), joint[1] / sum(joint))
+        assert math.isclose(vars(detector)["belief"], alpha[1], rel_tol=1e-9)
+        if (alpha[1] > 0.9 and told[-1] == "Outside") or (alpha[1] < 0.1 and told[-1] == "Inside"):
+            told.append("Inside" if told[-1] == "Outside" else "Outside")
+        states += found
+    assert states == told
+
+
+def surveys_asked(ids: list[int]) -> tuple[list[str], list[str]]:
+    """What the detector tells of a sequence of clusters, one each ten seconds, and what the surveyor asks for then."""
+    detector = load_reactor(INL, "detector.py", "Detector")(SETTINGS)
+    surveyor = load_reactor(INL, "detector.py", "Surveyor")(SURVEYOR)
+    told, asked = [], []
+    for number, cluster in enumerate(ids):
+        tick = 10 * number
+        for predicate in heard(detector, tick, cluster):
+            told.append(predicate)
+            here = Seen("Holds", {"x": 100.0, "y": 50.0}, tick)
+            now = Now(
+                tick, {"feature": Seen(predicate, {}, tick), "vehicle": here}, frozenset({"feature"}), frozenset()
+            )
+            surveyor.tick(now)
+            asked += [one.predicate for one in now.asked]
+    return told, asked
+
+
+def test_sixty_seconds_inside_are_one_detection_and_one_closer_look() -> None:
+    assert surveys_asked([3] * 5 + [35] * 6 + [3] * 10) == (["Outside", "Inside", "Outside"], ["HighRes"])
+    assert surveys_asked([3] * 5 + [35] * 6) == (["Outside", "Inside"], ["HighRes"])
+
+
+def test_a_single_outlier_is_no_detection() -> None:
+    assert surveys_asked([3] * 5 + [35] + [3] * 20) == (["Outside"], [])
 
 
 def test_it_tells_of_changes_only() -> None:

@@ -14,22 +14,28 @@ class Child:
     """What a task asks of a timeline: a relation, its value beside the task's own, and times, as text of the model."""
 
     line: "Line"
-    relation: Literal["contains", "meets", "met_by", "follows"]
+    relation: Literal["contains", "meets", "met_by", "follows", "beside"]
     plus: int = 0
     also: str = ""
     before: "Child | None" = None  # comes first on the same timeline
+    least: int | None = None  # the n of a task from which on it asks for this
+    waits: bool = False  # it asks only once it has begun
 
     def text(self, name: str) -> str:
         """The statements of a rule."""
         said = f"{self.line.class_name}.Do {name}"
         if self.relation == "follows":
             said = f"any({said}); end + 2 <= {name}.start; {name}.start <= end + 9;"
+        elif self.relation == "beside":
+            said = f"any({said}); {name}.start == start;"
         else:
             said = f"{self.relation}({said});"
         said += f" {name}.n == n + {self.plus}; {name}.start >= 1; {self.also.format(name)}"
         if self.before is not None:
             said = f"{self.before.text(name + '0')} {said} {name}0 before {name};"
-        return said
+        if self.least is not None:
+            said = f"if (n >= {self.least}) {{ {said} }}"
+        return f"if (start <= AGENT_CLOCK) {{ {said} }}" if self.waits else said
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +51,7 @@ class Line:
     most: int | None = None  # the largest n that it carries out
     lasts: tuple[int, int | None] = (1, None)  # a task
     children: tuple[Child, ...] = ()
+    ties: str = ""  # what a task says of the times of two that it asks for, beside each other
     within: "Line | None" = None  # a script: the task lies within its second step
     copied: "Line | None" = None  # what a mirror shows
 
@@ -92,7 +99,7 @@ class Line:
                 lasts += f" duration <= {self.lasts[1]};"
             inside = f" contained_by({self.within.class_name}.S1 w);" if self.within is not None else ""
             asked = " ".join(child.text(f"c{number}") for number, child in enumerate(self.children))
-            yield f"{name}::Do {{ {lasts}{inside} {asked} }}"
+            yield f"{name}::Do {{ {lasts}{inside} {asked} {self.ties} }}"
 
     def fact(self) -> str:
         """How it begins, if something must be said."""

@@ -172,6 +172,8 @@ def of_children(oracle: Oracle, line: Line, held: list[Held]) -> Iterator[str]:
         return
     for one in (one for one in held if one.predicate == "Do" and one.end is not None):
         for child in line.children:
+            if child.least is not None and ends(one.arguments["n"])[0] < child.least:
+                continue
             found = [each for each in oracle.held[child.line.name] if fits(child, one, each)]
             if not found and not may_still_come(child, one, oracle.events[-1]["tick"]):
                 yield f"{line.name} {one} has no {child.relation} {child.line.name}"
@@ -189,6 +191,8 @@ def fits(child: Child, parent: Held, seen: Held) -> bool:
     (low, high), (least, most) = ends(seen.arguments["n"]), ends(parent.arguments["n"])
     if low > most + child.plus or high < least + child.plus:
         return False
+    if child.relation == "beside":
+        return parent.start == seen.start
     if child.relation == "contains":
         return parent.start <= seen.start and seen.end is not None and seen.end <= parent.end
     if child.relation == "meets":

@@ -1,7 +1,7 @@
 """Draw an agent from a seed: what its reactors own, what they ask of each other, what goes wrong, what is asked."""
 
 import random
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from tests.executive.generated.agents import Child, Goal, Line, RandomAgent, Reactor
@@ -24,6 +24,7 @@ class Writer:
     count: int = 0
     may_fail: bool = True
     reactors: list[Reactor] = field(default_factory=list)
+    more: random.Random | None = None  # draws guards, ties and clocks
 
     def name(self, start: str) -> str:
         """A new name."""
@@ -68,7 +69,10 @@ class Writer:
             if most is None and not children:
                 most = least + 10
             within = chance.choice(scripts) if scripts and self.happens(0.15) else None
-            one.lines.append(Line(self.name("task"), "task", lasts=(least, most), children=children, within=within))
+            children, ties = widened(self.more, children, able) if self.more is not None else (children, "")
+            one.lines.append(
+                Line(self.name("task"), "task", lasts=(least, most), children=children, ties=ties, within=within)
+            )
         if seen and self.happens(0.5):
             one.lines.append(Line(self.name("lamp"), "mirror", copied=chance.choice(seen)))
         if self.may_fail and self.happens(0.06):
@@ -107,12 +111,31 @@ class Writer:
         return Goal(line, at, (first, last), n, self.happens(0.35), duration, recall)
 
 
-def random_agent(seed: int, plain: bool = False) -> RandomAgent:
-    """The agent of a seed; a plain one can be written as an agent file of T-REX too."""
+def widened(more: random.Random, children: tuple[Child, ...], able: list[Line]) -> tuple[tuple[Child, ...], str]:
+    """Children some of which are asked for under guards, and two that begin with their parent and end as it says."""
+    found = [
+        replace(
+            child,
+            least=more.choice((None, None, 2, 3)) if child.before is None else None,
+            waits=child.relation in ("follows", "meets") and more.random() < 0.3,
+        )
+        for child in children
+    ]
+    if len(able) < 2 or more.random() < 0.5:
+        return tuple(found), ""
+    first = len(found)
+    found += [Child(line, "beside", more.choice((0, 1))) for line in more.sample(able, 2)]
+    other = more.choice((0, 0, 2, 6))
+    relation = more.choice(("c{0}.end <= c{1}.end + {2};", "c{0}.end + {2} >= c{1}.end;", "c{0}.end == c{1}.end;"))
+    return tuple(found), relation.format(first, first + 1, other)
+
+
+def random_agent(seed: int, plain: bool = False, wide: bool = False) -> RandomAgent:
+    """The agent of a seed; a plain one can be written as an agent file of T-REX too, a wide one has guards and ties."""
     chance = random.Random(f"agent {seed}")
-    writer = Writer(chance)
+    writer = Writer(chance, more=random.Random(f"wide {seed}") if wide else None)
     writer.reactors += [writer.simulator() for _ in range(chance.choice((1, 1, 2)))]
-    writer.reactors += [writer.planner() for _ in range(chance.choice((1, 1, 2, 2)))]
+    writer.reactors += [writer.planner() for _ in range(chance.choice((1, 1, 2, 2)) + wide)]
     final_tick = chance.choice((40, 60, 90))
     takers = [one for one in writer.reactors if one.lookahead > 0]
     tops = [line for one in takers for line in one.lines if line.kind == "task"]

@@ -1,0 +1,100 @@
+"""What the founding paper says of its parts, in the INL survey (rows 5, 12, 15 and 16 of the reference)."""
+
+from functools import cache
+
+import pytest
+
+from checker.mission import read_mission
+from checker.models import load_models
+from runtime.executive.mission import record_mission
+from runtime.executive.outcome import Event, EventKind, Outcome
+from tests.models.test_models import MODELS, NOMINAL, fly
+from tests.programs import programs_of
+
+pytestmark = pytest.mark.once
+
+
+@cache
+def survey(**values: float) -> Outcome:
+    """The nominal survey with some values in place of the nominal ones."""
+    return fly("auv/inl/mission.toml", values=NOMINAL | values)
+
+
+def numbers(event: Event) -> dict[str, float]:
+    """The arguments that are numbers."""
+    return {name: value.interval[0] for name, value in event.arguments if value.interval is not None}
+
+
+def seen(outcome: Outcome, timeline: str, predicate: str) -> list[Event]:
+    """What was observed."""
+    found = [event for event in outcome.events if event.kind is EventKind.OBSERVATION and event.timeline == timeline]
+    return [event for event in found if event.predicate == predicate]
+
+
+def kind(event: Event) -> str:
+    """Of a step or a command, what the vehicle does."""
+    return str(dict(event.arguments)["kind"])
+
+
+def test_a_survey_of_eight_lines_is_decomposed_with_flexible_ends() -> None:
+    mission, _ = read_mission(MODELS / "auv/inl/mission.toml")
+    assert mission is not None
+    agent = load_models(mission).agent
+    _, record = record_mission(agent, programs_of(agent), 1, NOMINAL, until=9)  # planned, and nothing of it begun
+    planned = [one for one in record.reactors[0].tokens if one.state == "active" and one.fate == "end"]
+    for predicate, count in (("Path.Transect", 8), ("Nav.Go", 8), ("Path.FixStop", 4), ("Survey.VolumeSurvey", 1)):
+        tokens = [one for one in planned if one.predicate == predicate]
+        assert len(tokens) == count, predicate
+        ends = [[float(str(end)) for end in one.end] if isinstance(one.end, tuple) else [] for one in tokens]
+        assert all(each and each[0] < each[-1] for each in ends), predicate
+
+
+def test_eight_lines_are_flown_as_eight_legs_and_four_stops_for_a_fix() -> None:
+    outcome = survey()
+    assert len(seen(outcome, "path", "Transect")) == len(seen(outcome, "nav", "Go")) == 8
+    assert len(seen(outcome, "path", "FixStop")) == 4
+    assert sum("YoYo" in kind(event) for event in seen(outcome, "helm", "Run")) >= 8
+
+
+def test_a_larger_hit_rate_is_a_longer_time_at_the_surface_on_the_same_path() -> None:
+    times, paths = [], []
+    for rate in (0.1, 1.0, 2.5, 4.0):
+        outcome = survey(GPS_HIT_RATE=rate)
+        need = [numbers(event)["need"] for event in seen(outcome, "gps", "Active")]
+        assert set(need) == {max(1.0, 10 * rate)}
+        times.append(sum(need) / len(need))
+        steps = [event for event in seen(outcome, "motion", "Step") if "YoYo" in kind(event)]
+        paths.append([tuple(numbers(event)[name] for name in "xyz") for event in steps])
+    assert times == sorted(times) and len(set(times)) == len(times)
+    assert paths[0] == paths[-1]
+
+
+@pytest.mark.parametrize("axis", "xy")
+def test_the_error_of_navigation_shows_at_a_fix_alone(axis: str) -> None:
+    rate = 0.3
+    outcome = survey(**{f"ERROR_RATE_{axis.upper()}": rate})
+    fixes = seen(outcome, "gps", "Fix")
+    assert fixes
+    for fix in fixes:
+        assert numbers(fix)[f"j{axis}"] == pytest.approx(rate * numbers(fix)["since"], abs=1e-6)
+    until = fixes[0].tick
+    estimates = [
+        [(one.tick, numbers(one)) for one in seen(flight, "motion", "Step") if one.tick < until]
+        for flight in (outcome, survey())
+    ]
+    told = [[(tick, each["x"], each["y"], each["z"]) for tick, each in flight] for flight in estimates]
+    assert told[0] == told[1]
+    steps = {one.tick: numbers(one) for one in seen(outcome, "motion", "Step")}
+    assert steps[until][axis] - steps[until - 1][axis] == pytest.approx(rate * numbers(fixes[0])["since"], abs=1e-6)
+
+
+@pytest.mark.parametrize("axis", "xy")
+def test_an_uneven_current_pushes_an_open_loop_leg_by_noise_times_time(axis: str) -> None:
+    noise = -0.4
+    outcome = survey(**{f"D{axis.upper()}_NOISE": noise})
+    steps = [event for event in seen(outcome, "motion", "Step") if "Loiter" in kind(event)]
+    last = [event for event in steps if event.tick > outcome.last_tick - 500]  # it drifts, nothing steers it
+    first = numbers(last[0])
+    assert len(last) == 500
+    for event in last:
+        assert numbers(event)[axis] - first[axis] == pytest.approx(noise * (event.tick - last[0].tick), abs=1e-6)
