@@ -224,6 +224,63 @@ MISSIONS = (
         {"boom": "0 Rest, 3 Act, 13 Rest", "arm": "0 Rest, 3 Act, 15 Act, 22 Rest"},
         {"relax": 0, "reject": 0},
     ),
+    # What a running task asks for behind a guard of the clock is asked of the world when it is due.
+    Derived(
+        "asked_for_once_it_has_begun",
+        (
+            user(
+                "Task::Do { duration == 10; if (start <= AGENT_CLOCK)"
+                "{ any(Arm.Act a); a.start >= start + 3; a.start <= start + 6; } }",
+                "Task",
+                "Arm",
+            ),
+            world("Arm", "Arm::Act { duration == 3; }"),
+        ),
+        (do(5),),
+        {"task": "0 Rest, 5 Do, 15 Rest", "arm": "0 Rest, 8 Act, 11 Rest"},
+        {"relax": 0, "request": 2},
+    ),
+    # What happened at somebody else's wish before the goal came is found, and not asked for again.
+    Derived(
+        "what_happened_before_the_goal_came_is_found",
+        (
+            user("Task::Do { duration == 5; any(Arm.Act a); a.end + 2 <= start; start <= a.end + 20; }", "Task", "Arm"),
+            world("Arm", "Arm::Act { duration == 3; }"),
+        ),
+        (
+            GoalConfiguration("arm", "Act", start=(3, 3)),
+            GoalConfiguration("task", "Do", at=8, start=(12, 12)),
+        ),
+        {"arm": "0 Rest, 3 Act, 6 Rest", "task": "0 Rest, 12 Do, 17 Rest"},
+        {"relax": 0, "request": 2},
+    ),
+    # A goal of the tick before its only start is passed on at once.
+    Derived(
+        "goal_of_the_tick_before_with_a_child_at_once",
+        (
+            user("Task::Do { duration == 5; starts(Arm.Act a); }", "Task", "Arm"),
+            world("Arm", "Arm::Act { duration == 3; }"),
+        ),
+        (GoalConfiguration("task", "Do", at=9, start=(10, 10)),),
+        {"task": "0 Rest, 10 Do, 15 Rest", "arm": "0 Rest, 10 Act, 13 Rest"},
+        {"relax": 0, "reject": 0},
+    ),
+    # A task that is over long since still says when the second of two begins: three ticks after the end of the first.
+    Derived(
+        "second_child_begins_long_after_its_parent",
+        (
+            user(
+                "Task::Do { duration == 4; any(Arm.Act a); a.start == start; any(Boom.Act b); b.start == a.end + 3; }"
+                "Task::Sing { duration == 2; } Arm::Act { duration <= 12; }",
+                "Task Arm",
+                "Boom",
+            ),
+            world("Boom", "Boom::Act { duration == 5; }"),
+        ),
+        (do(3), do(10, what="Sing")),
+        {"arm": "0 Rest, 3 Act, 15 Rest", "boom": "0 Rest, 18 Act, 23 Rest"},
+        {"relax": 0},
+    ),
 )
 
 
