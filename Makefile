@@ -12,6 +12,7 @@
 #   make fuzz         the property tests with many more examples, and MUTATIONS (1000000) mutations of texts
 #   make sampling-study  BATCHES (10000) simulated batches per sampler: how often each interval covers the true rate
 #   make alarm-study  FLIGHTS (11000) right missions and plans of every kind, judged: the judge objects to none
+#   make judge-study  FAULTS (1000) faults in the source of the engine, flown, and put to the judge and to an oracle
 #   make controllability-proof  NETWORKS (10000) small networks beside the game against the vehicle, played to its end
 #   make truths       conditions of models whose truth is known, each on FRESH (2000) fresh missions
 #   make kills        KILLS (20) batches killed by SIGKILL and as many by SIGTERM, resumed, beside undisturbed ones
@@ -45,7 +46,7 @@ TICKING := $(BIN)/python build_backend/ticking.py
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study controllability-proof truths kills variants mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study judge-study controllability-proof truths kills variants mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -137,6 +138,11 @@ FLIGHTS := 11000
 
 alarm-study: build
 	$(BIN)/python -m tests.checker.judge.alarm_study $(FLIGHTS)
+
+FAULTS := 1000
+
+judge-study: setup
+	NDDLC_INTERPRETED=1 $(BIN)/python -m tests.checker.judge.judge_study $(FAULTS)
 
 NETWORKS := 10000
 
