@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from checker.judge.columns import FLOAT, INT, TEXT, Array, Column, Mask, Texts, column_of
-from runtime.executive.columns import GuardColumns, RunColumns, TokenColumns, ValueColumn
+from runtime.executive.columns import GuardColumns, RunColumns, TokenColumns, TokenGroup, ValueColumn
 from runtime.executive.record import BodyRun, GuardRun, TokenRecord
 
 _KINDS = {"float": FLOAT, "int": INT, "bool": INT, "name": TEXT}
@@ -52,9 +52,6 @@ class AlikeTokens(NamedTuple):
 
 def alike_tokens(tokens: Sequence[TokenRecord], texts: Texts, wanted: Mask, fewest: int) -> Iterator[AlikeTokens]:
     """Of the `wanted` tokens those of which at least `fewest` are alike."""
-    if isinstance(tokens, TokenColumns):
-        yield from _in_columns(tokens, texts, wanted, fewest)
-        return
     found: dict[tuple[str, _Shape], list[int]] = {}
     for row in np.flatnonzero(wanted).tolist():
         one = tokens[row]
@@ -119,13 +116,15 @@ class SymbolNumbers:
         return Column(kind, np.where(is_open, -np.inf, numbers), np.where(is_open, np.inf, numbers))
 
 
-def _in_columns(tokens: TokenColumns, texts: Texts, wanted: Mask, fewest: int) -> Iterator[AlikeTokens]:
+def alike_columns(
+    groups: Sequence[TokenGroup], tokens: TokenColumns, texts: Texts, wanted: Mask, fewest: int
+) -> Iterator[AlikeTokens]:
     """Of each group the tokens before the first one that is not wanted: it goes on when the mission ends.
 
     Large groups come in blocks, so that what is computed of them takes little memory.
     """
     numbers = SymbolNumbers(tokens.symbols, texts)
-    for group in tokens.groups:
+    for group in groups:
         unwanted = np.flatnonzero(~wanted.take(group.indices))
         count = int(unwanted[0]) if len(unwanted) else len(group.indices)
         if count >= fewest:

@@ -32,7 +32,7 @@ def row_child(child: Child, names: VariableNames) -> RowStep:
             rows = np.maximum(rows, 0)
         predicates = tuple(tables.predicates)
         if predicates not in fitting:
-            fitting[predicates] = _fitting(predicates, child, names)
+            fitting[predicates] = fitting_predicates(predicates, child, names)
         tally.need(fitting[predicates].take(tables.predicate.take(rows)))
         tokens = frame.tokens[slot] = RowTokens.children(tables, rows)
         holder = frame.tok.column(OBJECT) if child.object == "own" else None if given is None else given(frame)
@@ -63,7 +63,7 @@ def row_relate(given: Relate) -> RowStep:
     return step
 
 
-def _fitting(predicates: tuple[str, ...], child: Child, names: VariableNames) -> Mask:
+def fitting_predicates(predicates: tuple[str, ...], child: Child, names: VariableNames) -> Mask:
     """Which predicates are the one that a rule asks for; on its own object, of a subclass too."""
     wanted, _, suffix = child.predicate.rpartition(".")
     found = []

@@ -9,13 +9,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from checker.judge.alike import AlikeTokens, alike_tokens
+from checker.judge.alike import AlikeTokens, alike_columns, alike_tokens
 from checker.judge.bench import Bench
 from checker.judge.bodies import Written
 from checker.judge.bulk_frame import RowFrame, RowStep, RowTally, UnplainError
 from checker.judge.bulk_steps import allowed, compile_rows
 from checker.judge.columns import INT, Array, Mask
 from checker.judge.operands import VariableNames
+from checker.judge.row_judge import RowJudge
 from checker.judge.steps import Domain, domain_test
 from checker.judge.tables import RowTokens, Tables
 from compiler.program import END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
@@ -42,8 +43,13 @@ class BulkJudge:
     program: Program
     written: Written
     codes: dict[str, PredicateCode]
+    rows: RowJudge = field(init=False)
     _predicates: dict[str, _PredicateRows] = field(default_factory=dict)
     _rules: dict[int, tuple[RuleCode, list[RowStep]]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """No code is written yet."""
+        self.rows = RowJudge(self.program, self.written, self.codes)
 
     def predicate(self, name: str) -> _PredicateRows:
         """A predicate, compiled."""
@@ -87,10 +93,18 @@ def judge_in_bulk(judge: BulkJudge, bench: Bench, tables: Tables) -> Iterator[To
             for each in (starts, tables.times[END]):
                 if each.open is not None:
                     wanted &= ~each.open
-            for group in alike_tokens(tables.tokens, tables.texts, wanted, _FEWEST):
+            for group in _groups(judge, bench, tables, wanted, done):
                 holds = _judge_group(judge, bench, tables, group)
                 done[group.rows[holds]] = True
     return (tables.tokens[row] for row in np.flatnonzero(~done).tolist())
+
+
+def _groups(judge: BulkJudge, bench: Bench, tables: Tables, wanted: Mask, done: Mask) -> Iterator[AlikeTokens]:
+    """The groups that are judged on arrays; what was recorded in columns is judged row by row where there is code."""
+    if isinstance(tables.tokens, TokenColumns):
+        left = judge.rows.judge(bench, tables, tables.tokens, wanted, done)
+        return alike_columns(left, tables.tokens, tables.texts, wanted, _FEWEST)
+    return alike_tokens(tables.tokens, tables.texts, wanted, _FEWEST)
 
 
 def _judge_merged(bench: Bench, tables: Tables, done: Array) -> None:

@@ -140,10 +140,10 @@ class Tables:
         self.is_planned = self.is_active | self.is_merged
         self.has_cut = bool(self.is_cut.any())
         self.is_ordered = bool((self.keys[1:] > self.keys[:-1]).all())
-        self._rows: Array | None = None  # by key, where there are not many more keys than tokens
+        self.row_of: Array | None = None  # by key, where there are not many more keys than tokens
         if self.is_ordered and self.count and self.keys[0] >= 0 and self.keys[-1] < _SPARSE * self.count:
-            self._rows = np.full(int(self.keys[-1]) + 1, NOBODY)
-            self._rows[self.keys] = np.arange(self.count)
+            self.row_of = np.full(int(self.keys[-1]) + 1, NOBODY)
+            self.row_of[self.keys] = np.arange(self.count)
         self.standing = self._standing()
         if isinstance(record.tokens, TokenColumns):
             self.arguments: _Reader = _StoredReader(record.tokens, self.texts).of
@@ -197,10 +197,10 @@ class Tables:
         """The rows of tokens by their keys; NOBODY where there is none."""
         if not self.count:
             return np.full(len(keys), NOBODY)
-        if self._rows is None:
+        if self.row_of is None:
             return self._found(keys)
-        is_known = (keys >= 0) & (keys < len(self._rows))
-        found = self._rows.take(keys, mode="clip")
+        is_known = (keys >= 0) & (keys < len(self.row_of))
+        found = self.row_of.take(keys, mode="clip")
         return found if is_known.all() else np.where(is_known, found, NOBODY)
 
     def _found(self, keys: Array) -> Array:

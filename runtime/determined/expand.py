@@ -8,15 +8,13 @@ import numpy as np
 from compiler.program import PredicateCode
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
-from runtime.determined.reading import BodyReading, GuardReading, values
+from runtime.determined.reading import values
 from runtime.determined.tags import FAR, LEAST, MOST, OF_RULE, ROW, SHOWN, SLOT, WISHED
 from runtime.determined.token_walk import TokenWalk
 from runtime.executive.columns import (
     ORIGINS,
     Array,
-    GuardColumns,
     RunColumns,
-    ShownValues,
     TokenColumns,
     TokenGroup,
     TokenTimes,
@@ -246,64 +244,21 @@ class _Expansion:
 
     def _groups_of(self, block: int, roots: Array) -> Iterator[TokenGroup]:
         """The tokens of one block."""
-        first = np.asarray(self.walk.children).take(roots)
-        runs = _BlockRuns(self, block, first, self.rows[:, SHOWN].take(roots))
-        started = np.asarray(self.walk.child_rows)
-        for reading in self.program.readings(block):
+        first, shown = np.asarray(self.walk.children).take(roots), self.rows[:, SHOWN].take(roots)
+        started, keys = np.asarray(self.walk.child_rows), np.asarray(self.walk.child_keys)
+        for reading, bodies in zip(self.program.readings(block), self.program.outlines[block], strict=True):
             rows = started.take(first + reading.number)
-            begun = np.flatnonzero(rows >= 0)
-            if len(begun):
-                which = None if len(begun) == len(rows) else begun
+            of_first, of_shown = first, shown
+            if len(rows) and rows.min() < 0:
+                begun = np.flatnonzero(rows >= 0)
+                rows, of_first, of_shown = rows.take(begun), first.take(begun), shown.take(begun)
+            if len(rows):
                 yield TokenGroup(
                     reading.token.predicate.name,
                     self.program.model.lines[reading.token.line].name,
-                    self.indices.take(rows if which is None else rows.take(which)),
-                    tuple(runs.run(body, which) for body in reading.bodies),
+                    self.indices.take(rows),
+                    tuple([RunColumns(each, self.values, of_shown, keys, of_first) for each in bodies]),
                 )
-
-
-class _BlockRuns:
-    """Runs of one block: the keys of the children of each, and where a run shows its registers."""
-
-    def __init__(self, expansion: _Expansion, block: int, first: Array, shown: Array) -> None:
-        self.keys = np.asarray(expansion.walk.child_keys)
-        self.first = first
-        self.indices = expansion.program.shown_indices[block]
-        self.values = expansion.values
-        self.shown = shown
-        self.numbers = {
-            (each.token.parent, each.token.rule, each.token.slot): each.number
-            for each in expansion.program.readings(block)
-        }
-
-    def run(self, body: BodyReading, rows: Array | None) -> RunColumns:
-        """What one body did in some runs; in all if `rows` is None."""
-        first, shown = self.first, self.shown
-        if rows is not None:
-            first, shown = first.take(rows), shown.take(rows)
-        return RunColumns(
-            body.rule,
-            ShownValues(
-                self.values,
-                shown,
-                tuple([self.indices[register] for register, _ in body.named]),
-                tuple([kind for _, kind in body.named]),
-            ),
-            tuple([self.keys.take(first + self.numbers[child]) for child in body.children]),
-            tuple([self._guard(guard, rows) for guard in body.guards]),
-        )
-
-    def _guard(self, guard: GuardReading, rows: Array | None) -> GuardColumns:
-        shown = self.shown if rows is None else self.shown.take(rows)
-        is_true = self.values.take(shown + self.indices[guard.register]) != 0.0
-        branches = (guard.then, np.flatnonzero(is_true)), (guard.otherwise, np.flatnonzero(~is_true))
-        return GuardColumns(is_true, *[self._branch(body, rows, taken) for body, taken in branches])
-
-    def _branch(self, body: BodyReading | None, rows: Array | None, taken: Array) -> RunColumns | None:
-        """What a branch did in those of the runs that took it."""
-        if body is None or not len(taken):
-            return None
-        return self.run(body, taken if rows is None else rows.take(taken))
 
 
 def _rows_until(machine: Machine, tick: int) -> int:

@@ -12,10 +12,11 @@ from compiler.determined.reasons import ChoiceReason, FreeChoice, UndeterminedEr
 from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS, TOGETHER
 from compiler.program import DomainConstant, PredicateCode, Program
 from runtime.determined.machine import Machine
-from runtime.determined.reading import TokenReading, readings_of
+from runtime.determined.reading import TokenReading, outlines_of, readings_of
 from runtime.determined.tables import CodeTables
 from runtime.determined.tags import FAR, IS_FOLLOWING, IS_MERGED, IS_PREVIOUS, IS_TOGETHER, NONE
 from runtime.determined.token_walk import BlockTokens
+from runtime.executive.columns import RunOutline
 from runtime.executive.record import ReactorRecord
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import FLAG_FACT
@@ -58,6 +59,7 @@ class RegisterProgram:
     shown: "array[int]" = field(default_factory=lambda: array("q"))  # registers, block after block
     shown_first: "array[int]" = field(default_factory=lambda: array("q", [0, 0]))
     shown_indices: list[dict[int, int]] = field(default_factory=lambda: [{}])
+    outlines: list[tuple[tuple[RunOutline, ...], ...]] = field(default_factory=lambda: [()])  # by block, by token
     told: dict[tuple[str, str], dict[float, DomainConstant]] = field(default_factory=dict)  # by type: what others heard
     shapes: dict[str, list[ParameterShape]] = field(default_factory=dict)  # the parameters of a predicate
     initial: "array[float]" = field(default_factory=lambda: array("d", [0.0]))  # registers as a mission finds them
@@ -103,6 +105,7 @@ class RegisterProgram:
         self.shown.extend(indices)
         self.shown_first.append(len(self.shown))
         self.shown_indices.append(indices)
+        self.outlines.append(outlines_of(readings, indices))
         for token in made.tokens:
             self.tokens.how.append(_FOUND.get(token.how, IS_TOGETHER))
             self.tokens.line.append(token.line)

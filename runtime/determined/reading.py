@@ -7,6 +7,7 @@ from math import inf
 from compiler.determined.code import BlockToken, RegisterBlock
 from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS
 from compiler.program import Child, Guard, Instruction, NewVariable, RuleCode
+from runtime.executive.columns import GuardOutline, RunOutline
 from runtime.executive.record import BodyRun, GuardRun, Value, ValueRange
 
 Named = tuple[tuple[int, str], ...]  # registers and kinds
@@ -21,7 +22,7 @@ class BodyReading:
     rule: int
     named: Named
     children: tuple[tuple[int, int, int], ...]  # number of the parent in its block, rule, slot
-    guards: tuple["GuardReading", ...]
+    guards: tuple["_GuardReading", ...]
 
     def registers(self) -> Iterator[int]:
         """All registers that are read, in whatever branch."""
@@ -44,7 +45,7 @@ class BodyReading:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class GuardReading:
+class _GuardReading:
     """A guard: the register of its condition, and both branches, None where one is empty."""
 
     register: int
@@ -58,6 +59,27 @@ class GuardReading:
         return GuardRun(
             "then" if is_true else "else", True, None if branch is None else branch.run(registers, keys, names)
         )
+
+
+def outlines_of(readings: tuple["TokenReading", ...], places: Mapping[int, int]) -> tuple[tuple[RunOutline, ...], ...]:
+    """Where the tokens of a block show what their rules did; `places` are those of the registers that it shows."""
+    numbers = {(each.token.parent, each.token.rule, each.token.slot): each.number for each in readings}
+    return tuple([tuple([_outline(body, places, numbers) for body in each.bodies]) for each in readings])
+
+
+def _outline(body: BodyReading, places: Mapping[int, int], numbers: dict[tuple[int, int, int], int]) -> RunOutline:
+    guards = []
+    for guard in body.guards:
+        then, otherwise = (
+            None if branch is None else _outline(branch, places, numbers) for branch in (guard.then, guard.otherwise)
+        )
+        guards.append(GuardOutline(places[guard.register], then, otherwise))
+    return RunOutline(
+        body.rule,
+        tuple([(places[register], kind) for register, kind in body.named]),
+        tuple([numbers[child] for child in body.children]),
+        tuple(guards),
+    )
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -88,7 +110,7 @@ def _body(block: RegisterBlock, token: int, rule: int, body: tuple[Instruction, 
     registers = {each.span: each.register for each in block.guards if each.token == token and each.rule == rule}
     named: list[tuple[int, str]] = []
     children: list[tuple[int, int, int]] = []
-    guards: list[GuardReading] = []
+    guards: list[_GuardReading] = []
     for step in body:
         match step:
             case NewVariable(name=str(), slot=slot):
@@ -97,7 +119,7 @@ def _body(block: RegisterBlock, token: int, rule: int, body: tuple[Instruction, 
                 children.append((token, rule, slot))
             case Guard(then=then, otherwise=otherwise, span=span):
                 branches = [_body(block, token, rule, branch) if branch else None for branch in (then, otherwise)]
-                guards.append(GuardReading(registers[span], *branches))
+                guards.append(_GuardReading(registers[span], *branches))
             case _:
                 pass
     return BodyReading(rule, tuple(named), tuple(children), tuple(guards))

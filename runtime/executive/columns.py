@@ -66,13 +66,63 @@ class GuardColumns(NamedTuple):
     otherwise: "RunColumns | None"
 
 
-class RunColumns(NamedTuple):
-    """Runs of one rule; the keys of its children."""
+class RunOutline(NamedTuple):
+    """Where runs of a body show what they did: places of values behind the first that a run shows; of keys likewise."""
 
     rule: int
-    locals: ShownValues
-    children: tuple[Array, ...]
-    guards: tuple[GuardColumns, ...]
+    locals: tuple[tuple[int, str], ...]  # with their kinds
+    children: tuple[int, ...]
+    guards: tuple["GuardOutline", ...]
+
+
+class GuardOutline(NamedTuple):
+    """The place of a guard's condition, and its branches, None where one is empty."""
+
+    place: int
+    then: RunOutline | None
+    otherwise: RunOutline | None
+
+
+class RunColumns(NamedTuple):
+    """Runs of one body: `shown` is where each begins to show its values, `first` where the keys of its children are."""
+
+    outline: RunOutline
+    store: Array
+    shown: Array
+    keys: Array
+    first: Array
+
+    @property
+    def rule(self) -> int:
+        """The index of the rule in its program."""
+        return self.outline.rule
+
+    @property
+    def locals(self) -> ShownValues:
+        """The values of the named locals."""
+        places, kinds = zip(*self.outline.locals, strict=True) if self.outline.locals else ((), ())
+        return ShownValues(self.store, self.shown, places, kinds)
+
+    @property
+    def children(self) -> tuple[Array, ...]:
+        """The keys of the children."""
+        return tuple([self.keys.take(self.first + place) for place in self.outline.children])
+
+    @property
+    def guards(self) -> tuple[GuardColumns, ...]:
+        """What each guard came to."""
+        return tuple([self._guard(each) for each in self.outline.guards])
+
+    def _guard(self, guard: GuardOutline) -> GuardColumns:
+        is_true = self.store.take(self.shown + guard.place) != 0.0
+        return GuardColumns(is_true, self._branch(guard.then, is_true), self._branch(guard.otherwise, ~is_true))
+
+    def _branch(self, outline: RunOutline | None, is_taken: Array) -> "RunColumns | None":
+        """What a branch did in those of the runs that took it."""
+        if outline is None or not is_taken.any():
+            return None
+        taken = np.flatnonzero(is_taken)
+        return RunColumns(outline, self.store, self.shown.take(taken), self.keys, self.first.take(taken))
 
 
 class TokenGroup(NamedTuple):

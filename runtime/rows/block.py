@@ -1,0 +1,131 @@
+# cython: boundscheck=False
+"""Tokens of a block of rows: read from the columns of a record, found by their keys, related in time."""
+
+import math
+
+import numpy as np
+
+from runtime.rows.operations import BLOCK, MOST_GUARDS, MOST_TOKENS
+
+_NAN = float("nan")
+
+
+class RowBlock:
+    """Columns of all tokens, of the group that is looked at, and the cells and counts of a block of rows."""
+
+    def __init__(self) -> None:
+        nothing, numbers = np.zeros(1, np.int64), np.zeros(1)
+        bits = np.zeros(1, np.uint8)
+        # Of all tokens.
+        self.store = numbers
+        self.store_count = 0
+        self.starts, self.ends, self.latest = nothing, nothing, numbers
+        self.begun, self.planned = bits, bits
+        self.standing, self.predicates, self.objects, self.values = nothing, nothing, nothing, nothing
+        self.row_of = nothing  # by key
+        self.key_count = 0
+        self.texts, self.object_texts = numbers, numbers  # numbers of texts, by those of names in the record
+        self.symbol_count = 0
+        # Of the code.
+        self.code = nothing
+        self.length = 0
+        self.cells = numbers  # BLOCK numbers each
+        self.tables = bits  # whether something is allowed: by table, by the number of a text or a predicate
+        # Of the group.
+        self.rows, self.shown, self.first, self.child_keys = nothing, nothing, nothing, nothing
+        self.child_count = 0
+        self.count = 0
+        self.drawn = numbers
+        self.holds = bits
+        # Of a block: the rows of its tokens and where their arguments are; what was counted; the rows of each guard.
+        self.token_rows = np.zeros(MOST_TOKENS * BLOCK, np.int64)
+        self.argument = np.zeros(MOST_TOKENS * BLOCK, np.int64)
+        self.now_judged, self.now_open = np.zeros(BLOCK, np.int64), np.zeros(BLOCK, np.int64)
+        self.fails = np.zeros(BLOCK, np.uint8)
+        self.active = np.zeros((MOST_GUARDS + 1) * BLOCK, np.int64)
+        self.others = np.zeros((MOST_GUARDS + 1) * BLOCK, np.int64)  # in which a guard was not true
+        self.active_count, self.other_count = np.zeros(MOST_GUARDS + 1, np.int64), np.zeros(MOST_GUARDS + 1, np.int64)
+        self.judged = 0
+        self.open = 0
+
+    def put(self, at: int, row: int) -> int:
+        """Note the row of a token."""
+        self.token_rows[at] = row
+        self.argument[at] = self.values[self.standing[row]]
+        return 0
+
+    def known(self, value: float, kind: int) -> float:
+        """A value as the record has it: 0 a real, 1 a whole number, 2 a truth value, 3 a name."""
+        if kind == 0 or value != value:
+            return value
+        if kind == 1:
+            return float(math.trunc(value)) if value - value == 0.0 else _NAN
+        if kind == 2:
+            return 1.0 if value != 0.0 else 0.0
+        if value < 0.0 or value >= self.symbol_count:
+            return _NAN
+        return float(self.texts[int(value)])
+
+    def is_near(self, x: float, y: float) -> bool:
+        """Whether two reals are equal within the judge's tolerance."""
+        if x == y:
+            return True
+        gap = math.fabs(x - y)
+        if gap <= 1e-5:
+            return True
+        margin = 1e-5 + 1e-9 * max(math.fabs(x), math.fabs(y))
+        return gap <= margin and margin - margin == 0.0
+
+    def relate(self, at: int, many: int, base: int) -> int:
+        """Judge `lower <= second - first <= upper` of two times; where one is open, whether it can hold."""
+        lower, upper = self.cells[BLOCK * self.code[at + 5]], self.cells[BLOCK * self.code[at + 6]]
+        for j in range(many):
+            i = self.active[base + j]
+            one = self.standing[self.token_rows[BLOCK * self.code[at + 1] + i]]
+            other = self.standing[self.token_rows[BLOCK * self.code[at + 2] + i]]
+            if self.code[at + 3]:
+                least_a, most_a = float(self.ends[one]), self.latest[one]
+            else:
+                least_a = float(self.starts[one])
+                most_a = least_a if self.begun[one] else math.inf
+            if self.code[at + 4]:
+                least_b, most_b = float(self.ends[other]), self.latest[other]
+            else:
+                least_b = float(self.starts[other])
+                most_b = least_b if self.begun[other] else math.inf
+            if least_a == most_a and least_b == most_b:
+                self.now_judged[i] += 1
+                if not (lower <= least_b - least_a and least_b - least_a <= upper):
+                    self.fails[i] = 1
+                continue
+            self.now_open[i] += 1
+            if not (least_b - most_a <= upper and lower <= most_b - least_a):
+                self.fails[i] = 1
+            elif lower == upper and (least_a == most_a or least_b == most_b):
+                # Where one determines the other, a target that is in the plan must have been fixed.
+                if self.planned[self.token_rows[BLOCK * self.code[at + 7] + i]]:
+                    self.fails[i] = 1
+        return 0
+
+    def find_children(self, at: int, begin: int, many: int, base: int) -> int:
+        """Find the token of a child by its key; a row fails where it is none that the rule asks for."""
+        table = self.code[at + 3]
+        for j in range(many):
+            i = self.active[base + j]
+            row = -1
+            place = self.first[begin + i] + self.code[at + 2]
+            if place >= 0 and place < self.child_count:
+                key = self.child_keys[place]
+                if key >= 0 and key < self.key_count:
+                    row = self.row_of[key]
+            if row < 0:
+                self.fails[i] = 1
+                row = 0
+            elif (
+                not self.planned[row]
+                or not self.tables[table + self.predicates[row]]
+                or not self.tables[table + self.predicates[self.standing[row]]]
+            ):
+                self.fails[i] = 1
+            self.put(BLOCK * self.code[at + 1] + i, row)
+        return 0
