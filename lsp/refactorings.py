@@ -8,6 +8,7 @@ from pathlib import Path
 
 from lsprotocol.types import CodeAction, CodeActionKind, Range, TextEdit, WorkspaceEdit
 
+from lsp.declarations import declarations, indent_of
 from lsp.diagnostics import Conversion
 from lsp.meaning import around_at, piece_at
 from lsp.open_text import DocumentContext
@@ -41,6 +42,7 @@ def additions(
         yield from _missing_predicate(view, diagnostic, conversion)
     elif diagnostic.code in _MISSING:
         yield from _missing_includes(view, diagnostic.span.text, folders)
+    yield from declarations(view, diagnostic, conversion)
 
 
 # ---- a number becomes a constant or a parameter ----
@@ -136,7 +138,8 @@ def _missing_predicate(
         return
     is_own_line = not text[text.rfind("\n", 0, brace) + 1 : brace].strip()
     at = text.rfind("\n", 0, brace) + 1 if is_own_line else brace
-    written = f"  predicate {name} {{ }}\n" if is_own_line else f"predicate {name} {{ }} "
+    indent = indent_of(owner.node.members[-1].span) if owner.node.members else "    "
+    written = f"{indent}predicate {name} {{ }}\n" if is_own_line else f"predicate {name} {{ }} "
     uri, lines = conversion.place(span.source)
     yield (
         f"add `predicate {name}` to class `{owner.name}`",

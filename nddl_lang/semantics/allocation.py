@@ -1,6 +1,7 @@
 """Choose the constructor that a `new` or `super(...)` calls; tell the user where none fits."""
 
 from collections.abc import Sequence
+from itertools import permutations
 
 from nddl_lang.semantics.codes import CLASS_IS_CLOSED, NO_BASE_CONSTRUCTOR, NO_CONSTRUCTOR
 from nddl_lang.semantics.expressions import type_of
@@ -13,6 +14,8 @@ from nddl_lang.semantics.values import check_restriction
 from nddl_lang.syntax.nodes import Assignment, Expr, NewExpr, StringLiteral
 from nddl_lang.text.diagnostic import Edit, Fix, Note
 from nddl_lang.text.source import Span
+
+_MOST_REORDERED = 5  # arguments whose orders are tried
 
 
 def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | None:
@@ -84,6 +87,7 @@ def choose(
             text = f"that takes `({described})`" if types else "without arguments"
             notes = constructor_notes(owner)
             help_, fixes = _unquoted(context.symbols, owner, arguments)
+            fixes = fixes or _reordered(context.symbols, owner, arguments, types)
             complaint = NO_CONSTRUCTOR.at(span, notes=notes, help=help_, fixes=fixes, name=owner.name, arguments=text)
             context.complain(complaint)
         return None
@@ -104,6 +108,22 @@ def _unquoted(symbols: SymbolTable, owner: Class, arguments: Sequence[Expr]) -> 
                 fix = Fix(f"write `{text}`", (Edit(argument.span, text),), safe=False)
                 return f"`{text}` is a value of `{parameter.type.name}`: it stands without quotes", (fix,)
     return None, ()
+
+
+def _reordered(
+    symbols: SymbolTable, owner: Class, arguments: Sequence[Expr], types: Sequence[Type | None]
+) -> tuple[Fix, ...]:
+    """The arguments in the one other order that a constructor takes."""
+    if not 2 <= len(arguments) <= _MOST_REORDERED or None in types:
+        return ()
+    orders = [order for order in permutations(range(len(types))) if takes(symbols, owner, [types[at] for at in order])]
+    if len(orders) != 1:
+        return ()
+    texts = [arguments[at].span.text for at in orders[0]]
+    edits = tuple(
+        Edit(argument.span, text) for argument, text in zip(arguments, texts, strict=True) if argument.span.text != text
+    )
+    return (Fix(f"write `{', '.join(texts)}`", edits, safe=False),)
 
 
 def takes(symbols: SymbolTable, owner: Class, types: Sequence[Type | None]) -> bool:

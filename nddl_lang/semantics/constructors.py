@@ -22,7 +22,8 @@ from nddl_lang.semantics.codes import (
     NOT_A_MEMBER,
     SUPER_NOT_FIRST,
 )
-from nddl_lang.semantics.names import complain_unknown_member, follow, resolve
+from nddl_lang.semantics.expressions import type_of
+from nddl_lang.semantics.names import complain_unknown, complain_unknown_member, find, follow, resolve
 from nddl_lang.semantics.schema import (
     Chosen,
     Class,
@@ -141,7 +142,9 @@ def _check_assignment(context: Context, scope: Scope, node: Assignment, given: d
     if isinstance(node.value, NewExpr):
         check_allocation(context, scope, node.value)
     if not isinstance(reference, MemberReference) or not reference.members:
-        if reference is not None:
+        if reference is None:
+            type_of(context, scope, node.value)
+        else:
             context.complain(NOT_A_MEMBER.at(node.target.span, name=node.target.span.text))
         return
     member = reference.members[-1]
@@ -171,6 +174,9 @@ def _resolve_target(context: Context, scope: Scope, path: PathExpr) -> Reference
             complain_unknown_member(context, scope.own_class, head)
             return None
     member = context.symbols.find_member(scope.own_class, head.name)
+    if member is None and not rest and find(context, scope, head.name) is None:
+        complain_unknown(context, scope, head, is_target=True)
+        return None
     if member is None:
         return resolve(context, scope, path)
     start = MemberReference(None, (member,))

@@ -17,7 +17,7 @@ from nddl_lang.semantics.codes import (
 )
 from nddl_lang.semantics.constraints import Origin
 from nddl_lang.semantics.functions import OTHER_FUNCTIONS, FunctionRow, ResultKind
-from nddl_lang.semantics.literals import number
+from nddl_lang.semantics.literals import number, number_meant
 from nddl_lang.semantics.names import find, resolve, resolve_value, suggest_name
 from nddl_lang.semantics.natives import TIME_NAMES
 from nddl_lang.semantics.schema import (
@@ -165,7 +165,11 @@ def _check_equality(context: Context, binary: BinaryExpr, left: Type | None, rig
         return
     if not comparable(left, right, context.symbols.is_subclass):
         differing = binary.op == "!=" and always_differ(left, right)
-        fixes = (*_parameter_meant(context, binary.left, right), *_parameter_meant(context, binary.right, left))
+        fixes = tuple(
+            fix
+            for side, other in ((binary.left, right), (binary.right, left))
+            for fix in (*_parameter_meant(context, side, other), *number_meant(side, other))
+        )
         context.complain(
             (ALWAYS_DIFFERENT if differing else INCOMPARABLE).at(
                 binary.span,

@@ -14,6 +14,7 @@ from nddl_lang.semantics.codes import (
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.functions import METHODS, MethodRow, Receiver
 from nddl_lang.semantics.names import resolve, suggest_name
+from nddl_lang.semantics.natives import builtin_names
 from nddl_lang.semantics.schema import (
     ClassReference,
     EnumValue,
@@ -29,7 +30,7 @@ from nddl_lang.semantics.script import check_domain, note_state
 from nddl_lang.semantics.types import STATE, reference_type
 from nddl_lang.semantics.values import check_value, domain_key
 from nddl_lang.syntax.nodes import MethodCall, PathExpr
-from nddl_lang.text.diagnostic import Note
+from nddl_lang.text.diagnostic import Edit, Fix, Note
 from nddl_lang.text.source import Span
 
 _STATE_WORDS = {"ACTIVE": "active", "INACTIVE": "inactive", "MERGED": "merged", "REJECTED": "rejected"}
@@ -81,8 +82,27 @@ def _find_method(context: Context, node: MethodCall, receivers: tuple[Receiver, 
         context.complain(WRONG_RECEIVER.at(node.target.span, name=name, wanted=wanted, text=text, found=found))
     else:
         names = dict.fromkeys(method for receiver, method in METHODS if receiver in receivers)
-        context.complain(suggest_name(UNKNOWN_METHOD.at(node.method.span, name=name), node.method, names))
+        complaint = UNKNOWN_METHOD.at(node.method.span, name=name)
+        stated = _stated(context, node)
+        if stated is None:
+            complaint = suggest_name(complaint, node.method, names)
+        else:
+            fix = Fix(f"write `{stated}`", (Edit(node.span, stated),), safe=False)
+            help_ = f"`{name}` is a variable, and a statement says what it is: `{stated}`"
+            complaint = UNKNOWN_METHOD.at(node.method.span, name=name, help=help_, fixes=(fix,))
+        context.complain(complaint)
     return None
+
+
+def _stated(context: Context, node: MethodCall) -> str | None:
+    """`token.variable(value)` as the constraint that is meant; None where it is another call."""
+    reference = context.tables.references.get(node.target)
+    if not isinstance(reference, TokenReference) or len(node.arguments) != 1:
+        return None
+    predicate, name = reference.label.predicate, node.method.name
+    if name not in builtin_names(predicate.is_event) and all(each.name != name for each in predicate.parameters):
+        return None
+    return f"{node.target.span.text}.{name} == {node.arguments[0].span.text};"
 
 
 def _check_effect(context: Context, scope: Scope, node: MethodCall, row: MethodRow, reference: Reference) -> None:

@@ -225,10 +225,12 @@ def complain_unknown(
     name: Identifier,
     tables: tuple[str, ...] = (),
     type_name: str | None = None,
+    *,
+    is_target: bool = False,
 ) -> None:
     """Say that nothing of that name is known, once per statement, unless an earlier mistake may be the reason.
 
-    What may have been meant is looked for among values, and in `tables` too.
+    What may have been meant is looked for among values, and in `tables` too; of what is assigned to, among members.
     """
     symbols, word = context.symbols, name.name
     if word in context.reported or scope.is_doubtful(word) or symbols.is_doubtful(word):
@@ -260,7 +262,11 @@ def complain_unknown(
         values = [each for each in _VALUE_TABLES if each != "goal" or scope.kind is BlockKind.SCRIPT]
         constructed = scope.own_class if scope.kind is BlockKind.CONSTRUCTOR else None
         members = _members(context, constructed) if constructed is not None else ()
-        candidates = [*scope.visible(), *own, *members, *symbols.names(*values, *tables), *_LITERALS]
+        candidates = (
+            [*members]
+            if is_target
+            else [*scope.visible(), *own, *members, *symbols.names(*values, *tables), *_LITERALS]
+        )
         meant, help_ = None, None
         if constructed is not None and _is_predicate(context, constructed, word):
             meant = f'"{word}"'

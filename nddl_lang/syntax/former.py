@@ -82,7 +82,7 @@ def put_in_parentheses(b: Builder, first: int, index: int) -> bool:
     elif kinds[index] == "IDENT" and all(kind in ("IDENT", "this", ".") for kind in kinds[name + 1 : index]):
         last = index
         edits = (
-            Edit(Span(b.anchor, b.starts[name + 1], b.starts[name + 1]), "("),
+            Edit(Span(b.anchor, b.ends[name], b.starts[name + 1]), "("),
             Edit(Span(b.anchor, b.ends[index], b.ends[index]), ")"),
         )
         if kinds[index + 1] == ")":

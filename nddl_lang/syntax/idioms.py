@@ -128,6 +128,11 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
         r"\1(\2);",
     ),
     (rf"new ({_ASKS}) \((.*) ;", r"the token is made without `new`: `\1(\2;`", r"\1(\2;"),
+    (
+        rf"\( ({_ASKS}) (?:\( )?({_PATH}) ({_N})(?: \))? \) ;?",
+        r"the parenthesis stands behind the word: `\1(\2 \3);`",
+        r"\1(\2 \3);",
+    ),
     (rf"({_N}) = ({_ASKS}) \( ({_PATH}) \) ;", r"the token is named inside: `\2(\3 \1);`", r"\2(\3 \1);"),
     (rf"({_ASKS}) \( ({_PATH}) \( ({_N}) \) \) ;", r"the token is named so: `\1(\2 \3);`", r"\1(\2 \3);"),
     (
@@ -146,7 +151,7 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
     (r"close ;", "write `close();`", "close();"),
     (r"otherwise \{", "write `else`", ""),
     (rf"({_N} :: {_N}) ([^{{]*[^{{\w ][^{{]*) \{{", r"a rule is written `\1 { }`, without `\2`", ""),
-    (r"((?:[-=:>] ?)+) \{", r"a rule is written `Class::predicate { }`, without `\1`", ""),
+    (r"((?:[-=:>] ?)+) \{", r"the braces stand right after what they belong to, without `\1`", ""),
 )
 _TABLE = tuple((re.compile(pattern, re.DOTALL), help_, written) for pattern, help_, written in _ROWS)
 _TIDY = (

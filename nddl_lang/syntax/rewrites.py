@@ -7,10 +7,12 @@ from nddl_lang.text.diagnostic import Edit, Fix
 from nddl_lang.text.source import Span
 
 _INCLUDES = frozenset(("include", "import", "using", "require"))
-_DECLARED = frozenset(("BASETYPE", "IDENT", ","))
+_TYPES = ("BASETYPE", "IDENT")
 _AFTER_OBJECT = frozenset((";", ",", ")"))
 _RULE = [".", "IDENT", "{"]
 _MEMBERS = frozenset(("predicate", "action", "}"))
+_HEADS = frozenset(("class", "if", "foreach", "enum", "predicate", "action"))
+_BETWEEN = "a relation stands between two tokens: `{text}`"
 _SIGNS = {"is": "==", "and": "&&", "or": "||"}
 
 
@@ -20,7 +22,11 @@ def rewrite(b: Builder, first: int, index: int) -> Fix | None:
     if kind == END:
         return None
     before = kinds[first:index]
+    if kind == ":" and kinds[index + 1] == "{" and (kinds[first] in _HEADS or kinds[index - 1] in ("else", ")")):
+        return Fix("remove `:`", (Edit(b.at(index), ""),))
     match kinds[first]:
+        case "enum" if kind == "=" and index == first + 2 and kinds[index + 1] in ("{", "SET"):
+            return Fix("remove `=`", (Edit(_from(b, index - 1, index), ""),))
         case "class" if kind == ":":
             return Fix("write `extends`", (_word(b, index, "extends"),))
         case "class" if index == first + 2 and kinds[index : index + 3] == ["(", "IDENT", ")"]:
@@ -119,13 +125,21 @@ def _parentheses_of_condition(b: Builder, index: int) -> Fix | None:
 
 
 def link_tokens(b: Builder, first: int, index: int) -> bool:
-    """Read `a.before(b)` as `a before b`, and `a.b.equals(c)`, where the left is no token, as `a.b == c`.
+    """Read `a.before(b)` and `a.before b` as `a before b`; `a.b.equals(c)`, where the left is no token, as `a.b == c`.
 
     The statement begins at the lexeme `first`, and the parser did not know what to make of the lexeme `index`; whether
     it is such a statement.
     """
     kinds, texts = b.kinds, b.texts
-    if kinds[index] != "RELATION" or kinds[index - 1] != "." or kinds[index + 1] != "(":
+    if kinds[index] != "RELATION" or kinds[index - 1] != ".":
+        return False
+    if kinds[first] == "IDENT" and index == first + 2 and kinds[index + 1 : index + 3] == ["IDENT", ";"]:
+        text = f"{texts[first]} {texts[index]} {texts[index + 1]}"
+        fix = Fix(f"write `{text}`", (Edit(b.span(first, index + 1), text),))
+        b.report(SUPERFLUOUS, b.at(index - 1), text=".", help=_BETWEEN.format(text=text), fixes=(fix,))
+        b.remove(index - 1, index)
+        return True
+    if kinds[index + 1] != "(":
         return False
     if kinds[index + 2] not in ("IDENT", "this") or kinds[index + 3] != ")" or index < first + 2:
         return False
@@ -133,7 +147,7 @@ def link_tokens(b: Builder, first: int, index: int) -> bool:
     if is_between_tokens:
         own = "" if kinds[first] == "this" else f"{texts[first]} "
         text = f"{own}{texts[index]} {texts[index + 2]}"
-        help_text = f"a relation stands between two tokens: `{text}`"
+        help_text = _BETWEEN.format(text=text)
     elif texts[index] in ("equal", "equals"):
         text = f"{b.span(first, index - 2).text} == {texts[index + 2]}"
         kinds[index] = texts[index] = "=="
@@ -149,27 +163,39 @@ def link_tokens(b: Builder, first: int, index: int) -> bool:
 
 
 def _braces_for_parameters(b: Builder, opener: int) -> Fix | None:
-    """`predicate p(int a, C b);` becomes `predicate p { int a; C b; }`."""
+    """`predicate p(int a, C b);` and `predicate p(a: int, b - C);` become `predicate p { int a; C b; }`."""
     kinds = b.kinds
     if ")" not in kinds[opener:]:
         return None
     closer = kinds.index(")", opener)
     inside, after = kinds[opener + 1 : closer], kinds[closer + 1 : closer + 3]
-    if not _DECLARED.issuperset(inside):
+    parameters = _parameters(b, opener + 1, closer)
+    if parameters is None:
         return None
     if after[:1] == ["{"] and after != ["{", "}"]:
         # What stands in braces is left as it is: only empty parentheses go.
         return Fix("remove `()`", (Edit(b.span(opener, closer), ""),)) if not inside else None
     last = closer + {"{": 2, ";": 1}.get(after[0] if after else "", 0)
-    declared = " ".join("".join(";" if kind == "," else text for kind, text in _spaced(b, opener, closer)).split())
-    body = f"{{ {declared}; }}" if inside else "{ }"
+    body = f"{{ {'; '.join(parameters)}; }}" if inside else "{ }"
     at = Span(b.anchor, b.ends[opener - 1], b.ends[last])
     return Fix(f"write `{body}`", (Edit(at, f" {body}"),))
 
 
-def _spaced(b: Builder, opener: int, closer: int) -> list[tuple[str, str]]:
-    """The lexemes between two, each with a blank before it unless it is a comma."""
-    return [(b.kinds[at], f" {b.texts[at]}") for at in range(opener + 1, closer)]
+def _parameters(b: Builder, first: int, closer: int) -> list[str] | None:
+    """Parameters between commas, the type first; None where something else stands there."""
+    found = []
+    while first < closer:
+        last = b.kinds.index(",", first, closer) if "," in b.kinds[first:closer] else closer
+        texts = b.texts[first:last]
+        match b.kinds[first:last]:
+            case [type_, "IDENT"] if type_ in _TYPES:
+                found.append(f"{texts[0]} {texts[1]}")
+            case ["IDENT", ":" | "-", type_] if type_ in _TYPES:
+                found.append(f"{texts[2]} {texts[0]}")
+            case _:
+                return None
+        first = last + 1
+    return found
 
 
 def _parentheses(b: Builder, index: int) -> Fix | None:

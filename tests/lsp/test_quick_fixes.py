@@ -42,17 +42,22 @@ first.start == 0;
 goal(Robot.At last);
 last.place == hall;
 """
+ROVING = ROBOT.replace("class Place", "int LIMIT = 5;\n\nclass Place", 1).replace(
+    "duration <= 5;\n    }", "duration <= LIMIT;\n    } else {\n        duration >= 6;\n    }"
+)
 ERROR = 1
 
 
-def broken(text: str, *mistakes: tuple[str, str]) -> str:
-    for right, wrong in mistakes:
-        assert right in text
-        text = text.replace(right, wrong, 1)
+def broken(text: str, *mistakes: tuple[str, ...], form: int = 1) -> str:
+    """The text with mistakes; with `form` -1 as it should be once they are mended."""
+    for mistake in mistakes:
+        assert mistake[0] in text
+        text = text.replace(mistake[0], mistake[form] if len(mistake) > 2 or form > 0 else mistake[0], 1)
     return text
 
 
-MODELS = {
+# What is right, what is written in its place, and, where it is another, what mends that.
+MODELS: dict[str, tuple[str, *tuple[tuple[str, ...], ...]]] = {
     "letters": (
         LAMP,
         ("predicate Press", "Predicate Press"),
@@ -117,6 +122,51 @@ MODELS = {
         ("goal(Lamp.On reading);", "goal(Lamp.On, reading);"),
         ("reading.start == 20;", "reading.start == 20"),
     ),
+    "types": (
+        ROVING,
+        ('"lab", 1.5', '1.5, "lab"'),
+        ("int LIMIT = 5;", "int LIMIT = 5.0;"),
+        ("first.start == 0;", 'first.start == "0";'),
+        ("if (mode == Fast)", "if (mode == fast)"),
+        ("neq(from, to);", "neq(from);"),
+    ),
+    "declarations": (
+        ROVING,
+        ("enum Mode { Slow, Fast }", "enum Mode { Slow }"),
+        ("    float x;\n", ""),
+        ("int LIMIT = 5;\n", "", ""),
+        ("Robot::Going {", "Robot::Going {", "int LIMIT;\nRobot::Going {"),
+        ("Place from; Place to; Mode mode;", "Place from; Mode mode;", "Place from; Mode mode; Place to;"),
+        ("    predicate At { Place place; }\n", "    predicate At { }\n"),
+    ),
+    "order": (
+        ROVING,
+        ("Robot robot = new Robot();", "Robot robot = new robot();"),
+        ("fact(Robot.At first);", "fact Robot.At first;"),
+        ("first.start == 0;", "first.start(0);"),
+        ("int LIMIT = 5;\n\nclass Place {", "class Place {", "class Place {"),
+        ("Robot::Going {", "Robot::Going {", "int LIMIT = 5;\nRobot::Going {"),
+        ("close();", "int LIMIT = 5;\nclose();", "close();"),
+    ),
+    "Python": (
+        ROVING,
+        ("if (mode == Fast) {", "if (mode == Fast): {"),
+        ("} else {", "} else: {"),
+        ("enum Mode { Slow, Fast }", "enum Mode = { Slow, Fast }"),
+        ("a.place == from;", "a.place is from;"),
+        ("predicate At { Place place; }", "predicate At(place: Place);"),
+    ),
+    "PDDL": (
+        ROVING,
+        ("met_by(object.Going way);", "met_by object.Going way;"),
+        ("a before b;", "a.before b;"),
+        ("goal(Robot.At last);", "(goal Robot.At last);"),
+        ("duration <= LIMIT;", "duration =< LIMIT;"),
+        (
+            "predicate Going { Place from; Place to; Mode mode; }",
+            "predicate Going(from - Place, to - Place, mode - Mode);",
+        ),
+    ),
     "words": (
         ROBOT,
         ("way.to == place;", "way.to is place;"),
@@ -139,18 +189,23 @@ def test_five_mistakes_are_mended_by_quick_fixes_only(client: Any, tmp_path: Pat
     while errors := [each for each in told if each["severity"] == ERROR]:
         fixes += 1
         assert fixes <= 2 * len(mistakes), errors
-        actions = client.ask(
-            "textDocument/codeAction",
-            textDocument={"uri": uri},
-            range=errors[0]["range"],
-            context={"diagnostics": errors[:1], "only": ["quickfix"]},
+        # What cannot be mended yet, for it rests on another mistake, waits for that.
+        found = (
+            client.ask(
+                "textDocument/codeAction",
+                textDocument={"uri": uri},
+                range=error["range"],
+                context={"diagnostics": [error], "only": ["quickfix"]},
+            )
+            for error in errors
         )
+        actions = next(filter(None, found), None)
         assert actions, errors[0]
         first = next((each for each in actions if each.get("isPreferred")), actions[0])
         text = mended(text, first["edit"]["changes"][uri])
         told = client.change(uri, {"text": text})["diagnostics"]
-    assert text == right
-    assert fixes == len(mistakes)
+    assert text == broken(right, *mistakes, form=-1)
+    assert fixes <= len(mistakes)
     assert client.leave() == 0
 
 

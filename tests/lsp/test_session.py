@@ -167,12 +167,16 @@ def test_the_other_questions_are_answered_over_the_wire(client: Any, tmp_path: P
     assert names == ["GPS_HIT_RATE", "Gps::Active"]
     completed = client.ask("textDocument/completion", textDocument=document, position={"line": 5, "character": 5})
     assert [each["label"] for each in completed["items"]] == ["Inactive", "Active"]
-    (action,) = client.ask(
+    action, *others = client.ask(
         "textDocument/codeAction",
         textDocument=document,
         range=place(8, 22, 22),
         context={"diagnostics": []},
     )
+    assert [each["title"] for each in others] == [
+        "add parameter `float minHitz;` to `Gps.Active`",
+        "declare `float minHitz;`",
+    ]
     assert action["edit"]["changes"] == {uri: [{"range": place(8, 21, 28), "newText": "minHits"}]}
     client.change(uri, {"text": "int   a;\n"})
     options = {"tabSize": 2, "insertSpaces": True}
