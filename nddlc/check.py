@@ -20,7 +20,7 @@ from checker.counterfactual.trials import MOST_FLIGHTS, Bounds
 from checker.coverage import coverage_of
 from checker.excerpts import Excerpts
 from checker.findings import Findings
-from checker.mission import LARGEST_SEED, Mission, read_mission
+from checker.mission import Mission, read_mission
 from checker.oracle import USER_CODE
 from checker.pinned import pinned
 from checker.regression import RegressionCase, RegressionError, agent_of, read_cases, regressions_path
@@ -39,6 +39,7 @@ from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.values import json_text
+from nddlc.batch_seed import BatchSeed
 from nddlc.fitting import say
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, mission_here, readable, write_text
 from nddlc.known import known_callables
@@ -60,7 +61,7 @@ _STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 @click.command(cls=WatchedCommand)
 @click.argument("path", metavar="[PATH]", required=False)
 @click.option("--missions", type=click.IntRange(1), help="How many missions to fly, whatever the file says.")
-@click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="The batch seed, whatever the file says.")
+@click.option("--seed", type=BatchSeed(), metavar="N|auto", help="The batch seed; `auto` draws a new one.")
 @click.option("--max-failure-rate", type=click.FloatRange(0.0, 1.0), help="The accepted rate, whatever the file says.")
 @click.option("--workers", type=click.IntRange(1), help="Processes to fly with; by default one per core.")
 @click.option("--format", "style", type=click.Choice(_STYLES), default="text", help="What to print.")
