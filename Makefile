@@ -14,6 +14,8 @@
 #   make alarm-study  FLIGHTS (11000) right missions and plans of every kind, judged: the judge objects to none
 #   make judge-study  FAULTS (1000) faults in the source of the engine, flown, and put to the judge and to an oracle
 #   make controllability-proof  NETWORKS (10000) small networks beside the game against the vehicle, played to its end
+#   make study        CELL (200) missions of each cell of the founding paper's study, what they show, adaptive sampling of B2,
+#                     and the three mistakes found at sea in one batch; hours, kept in build/study.sqlite and gone on with
 #   make truths       conditions of models whose truth is known, each on FRESH (2000) fresh missions
 #   make kills        KILLS (20) batches killed by SIGKILL and as many by SIGTERM, resumed, beside undisturbed ones
 #   make agents       AGENTS (500) random missions of random reactors, flown in every way and put to an oracle of their traces
@@ -46,7 +48,7 @@ TICKING := $(BIN)/python build_backend/ticking.py
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study judge-study controllability-proof truths kills variants mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study judge-study controllability-proof study truths kills variants mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -148,6 +150,11 @@ NETWORKS := 10000
 
 controllability-proof: build
 	NDDLC_PROOFS=$(NETWORKS) $(PYTEST) tests/checker/test_controllability.py
+
+CELL := 200
+
+study: build
+	$(BIN)/python -m tests.checker.paper_study $(CELL)
 
 FRESH := 2000
 

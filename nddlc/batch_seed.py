@@ -10,7 +10,7 @@ _AUTOMATIC = "auto"
 _BITS = 32
 
 
-class BatchSeed(click.ParamType):
+class BatchSeed(click.ParamType[int]):
     """Either way the seed stands in the report, so that the batch can be flown again."""
 
     name = "N|auto"
