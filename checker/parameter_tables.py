@@ -11,6 +11,8 @@ from runtime.executive.configuration import Mode, ParameterConfiguration
 from runtime.executive.distributions import DISTRIBUTIONS
 from runtime.executive.expression import ExpressionError, parse_expression
 
+_HELD = ("uniform", "truncated_normal")  # that draw nothing outside of the range
+_WHOLE_ENDS = 'with `kind = "int"` the next whole numbers outside would be drawn too'
 _ALL_CLIPPED = "every draw would be {:g}: write `value`"
 _OWN_KEYS = ("values", "weights", "value", "mean", "sigma", "expression")  # of some distributions only
 
@@ -60,6 +62,8 @@ def _read_parameter(name: str, table: Table) -> tuple[ParameterConfiguration, bo
     if bounds is None and shape == "normal" and mean is not None and deviation is not None:
         half = deviation * math.sqrt(3.0)  # the range that it would be matched to
         bounds = (mean - half, mean + half)
+    if bounds and is_whole and shape in _HELD and not all(float(end).is_integer() for end in bounds):
+        table.complain_of_value("range", list(bounds), "whole numbers at both ends", _WHOLE_ENDS)
     has_range = bounds is not None or shape == "dependent"
     lower, upper = bounds or (0.0, 0.0)
     if bounds and clip and shape != "normal" and not (lower <= clip[1] and clip[0] <= upper):

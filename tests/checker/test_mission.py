@@ -227,6 +227,7 @@ _HUGE = "9" * 400
         ("[end]", f"[parameters.A]\nrange = [0, {_HUGE}]", "`range` must be numbers that can be held"),
         ("[end]", "[parameters.A]\nrange = [-1e308, 1e308]", "`range` must be narrower"),
         ("[end]", "[parameters.A]\nrange = [0, 1]\nclip = [2, 3]", "`clip` must be such that it meets [0, 1]"),
+        ("[end]", '[parameters.A]\nrange = [0.2, 3]\nkind = "int"', "`range` must be whole numbers at both ends"),
         ("[end]", "[parameters.A]\nrange = [0, 1]\nupdate = 5", '`update` has no effect without `mode = "intra"`'),
         ("[end]", f"{GOAL}distance = {_HUGE}", "`distance` must be a number that can be held"),
         ("[end]", f"{GOAL}distance = {{ a = 1 }}", "`distance` must be a number, a text in quotes, true or false, or"),
