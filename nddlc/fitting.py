@@ -10,6 +10,8 @@ import sys
 
 import click
 
+from nddl_lang.text.printable import but_colours
+
 _CODE = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
 _SOURCE = re.compile(r"^\s*(?:\d+ \||\d+ [-+]|\|) ")  # the gutter of an excerpt
 _MARKS = re.compile(r"^\s*\| ( *)([-^]+)\s*$")
@@ -31,7 +33,8 @@ def say(text: str) -> None:
 
 
 def fitted(text: str, width: int | None) -> str:
-    """The text in lines of at most so many columns; as it is where there is no width."""
+    """The text in lines of at most so many columns; where there is no width they may be as long as they are."""
+    text = but_colours(text)
     if width is None:
         return text
     room = max(width, _LEAST)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from enum import Enum
 
+from nddl_lang.text.printable import printable
 from nddl_lang.text.source import Span
 
 
@@ -76,4 +77,5 @@ class Code:
         **values: object,
     ) -> Diagnostic:
         """The diagnostic of this code at `span`."""
-        return Diagnostic(self, self.severity, span, self.template.format(**values), notes, help, fixes)
+        message = printable(self.template.format(**values))
+        return Diagnostic(self, self.severity, span, message, notes, None if help is None else printable(help), fixes)

@@ -5,6 +5,7 @@ from typing import Any
 
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note, Severity
 from nddl_lang.text.excerpt import around, excerpt
+from nddl_lang.text.printable import printable
 from nddl_lang.text.source import Source, Span
 
 _NEAR = 500  # characters of a long line beside a mend
@@ -43,7 +44,7 @@ class _Page:
         head = self._paint(f"{severity.value}[{diagnostic.code.id}]", _COLOURS[severity])
         yield head + self._paint(f": {diagnostic.message}", _BOLD)
         yield from self._place(diagnostic.span, _COLOURS[severity], "^")
-        remarks = [f"note: {note.message}" for note in diagnostic.notes if note.span is None]
+        remarks = [f"note: {printable(note.message)}" for note in diagnostic.notes if note.span is None]
         if diagnostic.help is not None:
             remarks.append(f"help: {diagnostic.help}")
         if remarks:
@@ -52,7 +53,7 @@ class _Page:
             yield f"{self._sign('=')} {remark}"
         for note in diagnostic.notes:
             if note.span is not None:
-                yield self._paint(f"note: {note.message}", _BOLD)
+                yield self._paint(f"note: {printable(note.message)}", _BOLD)
                 yield from self._place(note.span, _GUTTER, "-")
         for fix in diagnostic.fixes:
             yield from self._fix(fix)
@@ -61,7 +62,7 @@ class _Page:
         source = span.source
         line, column = source.locate(span.begin)
         arrow = self._paint(" " * self._gutter + "-->", _GUTTER)
-        yield f"{arrow} {source.name}:{line}:{column}"
+        yield f"{arrow} {printable(source.name)}:{line}:{column}"
         yield self._bar()
         for number, text, carets in excerpt(span, mark):
             if number is None:
@@ -74,7 +75,7 @@ class _Page:
     def _fix(self, fix: Fix) -> Iterator[str]:
         """What the lines look like before and after the mend."""
         safety = "" if fix.safe else " (check the meaning)"
-        yield self._paint(f"help: {fix.title}{safety}", _BOLD)
+        yield self._paint(f"help: {printable(fix.title)}{safety}", _BOLD)
         for source, edits in _by_source(fix.edits):
             begin = min(edit.span.begin for edit in edits)
             finish = max(edit.span.finish for edit in edits)

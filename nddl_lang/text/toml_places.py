@@ -1,6 +1,7 @@
 """Say where in a TOML text each key and each value stands, which `tomllib` does not."""
 
 import re
+import tomllib
 from dataclasses import dataclass
 
 # A table's header, in a text that need not be well-formed: whether it is one of several, and its name.
@@ -26,6 +27,14 @@ def find_places(text: str) -> dict[Path, Stretch]:
     scan = _Scan(toml_of(text))
     scan.document()
     return scan.places
+
+
+def _unquoted(key: str) -> str:
+    """The name that a quoted key stands for."""
+    if key[0] == "'" or "\\" not in key:
+        return key[1:-1]
+    (name,) = tomllib.loads(f"{key} = 0")
+    return name
 
 
 class _Scan:
@@ -82,7 +91,7 @@ class _Scan:
             if self.text[self.at] in "\"'":
                 start = self.at
                 self._skip_string()
-                names.append(self.text[start + 1 : self.at - 1])
+                names.append(_unquoted(self.text[start : self.at]))
             else:
                 start = self.at
                 while self.at < len(self.text) and (self.text[self.at].isalnum() or self.text[self.at] in "_-"):
