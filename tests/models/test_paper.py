@@ -1,17 +1,21 @@
-"""What the founding paper says of its parts, in the INL survey (rows 5, 12, 15 and 16 of the reference)."""
+"""What the founding paper says of its parts, in the INL survey (rows 5, 12, 15, 16 and 18 of the reference)."""
 
+from dataclasses import replace
 from functools import cache
+from statistics import median
+from typing import Literal
 
 import pytest
 
 from checker.mission import read_mission
 from checker.models import load_models
-from runtime.executive.mission import record_mission
+from runtime.executive.mission import record_mission, run_mission
 from runtime.executive.outcome import Event, EventKind, Outcome
 from tests.models.test_models import MODELS, NOMINAL, fly
 from tests.programs import programs_of
 
 pytestmark = pytest.mark.once
+MODES: tuple[Literal["inter", "intra"], ...] = ("inter", "intra")
 
 
 @cache
@@ -98,3 +102,30 @@ def test_an_uneven_current_pushes_an_open_loop_leg_by_noise_times_time(axis: str
     assert len(last) == 500
     for event in last:
         assert numbers(event)[axis] - first[axis] == pytest.approx(noise * (event.tick - last[0].tick), abs=1e-6)
+
+
+def path(outcome: Outcome) -> list[tuple[float, float]]:
+    """Where the vehicle was, each ten ticks."""
+    steps = (numbers(event) for event in seen(outcome, "motion", "Step") if event.tick % 10 == 0)
+    return [(step["x"], step["y"]) for step in steps]
+
+
+@pytest.mark.slow
+def test_noise_that_changes_within_a_mission_looks_like_the_standard_path() -> None:
+    # Row 18, figure 8: the median over 20 seeds of the RMS distance to the standard path.
+    mission, _ = read_mission(MODELS / "auv/inl/mission.toml")
+    assert mission is not None
+    agent = load_models(mission).agent
+    programs = programs_of(agent)
+    calm = {name: value for name, value in NOMINAL.items() if "NOISE" not in name}
+    standard = path(run_mission(agent, programs, 1, NOMINAL, until=12_000))
+    medians = []
+    for mode in MODES:
+        noise = [replace(one, mode=mode, update=10) if "NOISE" in one.name else one for one in agent.parameters]
+        distances = []
+        for seed in range(20):
+            flown = path(run_mission(replace(agent, parameters=tuple(noise)), programs, seed, calm, until=12_000))[::5]
+            squares = [min((x - u) ** 2 + (y - v) ** 2 for u, v in standard) for x, y in flown]
+            distances.append((sum(squares) / len(squares)) ** 0.5)
+        medians.append(median(distances))
+    assert medians[1] < 0.1 * medians[0]
