@@ -18,6 +18,7 @@ from compiler.program import (
     DomainConstant,
     Guard,
     Instruction,
+    LocalVariable,
     NewObject,
     NewVariable,
     ObjectLoop,
@@ -143,6 +144,7 @@ def _sample(sample: Sample, slot: int | None, names: VariableNames) -> Step:
     parameter, target = sample.parameter, sample.target
     read = reader(target, names)
     name = names.of(target)
+    is_local = isinstance(target, LocalVariable)
 
     def step(frame: BodyFrame) -> None:
         tick = 0 if frame.tok is None else frame.tok.values[START]
@@ -151,8 +153,12 @@ def _sample(sample: Sample, slot: int | None, names: VariableNames) -> Step:
             frame.slots[slot] = drawn
             return
         value = read(frame)
-        if not frame.bench.weigh(equal(value, drawn)):
-            values = ((name, value), (parameter, drawn))
+        holds = equal(value, drawn)
+        values = ((name, value), (parameter, drawn))
+        if is_local and holds is None and is_open(value) and not is_open(drawn) and frame.choosing is None:
+            frame.bench.judged += 1
+            _note(frame, "draw", parameter, values, "left open", "the draw of the tick", sample.span)
+        elif not frame.bench.weigh(holds):
             _note(frame, "draw", parameter, values, "the value in use", "the draw of the tick", sample.span)
 
     return step

@@ -1,12 +1,14 @@
 """A judge that agrees with a right mission disagrees as soon as its record or its trace is altered."""
 
 from collections.abc import Callable
+from math import inf
 from random import Random
 
 import pytest
 
-from tests.checker.judge.corruption import ALTERATIONS, again
-from tests.checker.judge.missions import MISSIONS
+from runtime.executive.record import ValueRange
+from tests.checker.judge.corruption import ALTERATIONS, again, executed, put
+from tests.checker.judge.missions import MISSIONS, walking
 from tests.executive.flying import Flown
 
 OFTEN = 6
@@ -26,6 +28,17 @@ def test_an_altered_record_is_noticed(name: str, alter: Callable[[Flown, Random]
             if again(altered).holds:
                 silent.append((seed, number))
     assert not silent
+
+
+@pytest.mark.parametrize("until", [30, 240])
+def test_a_draw_that_was_left_open_is_noticed(until: int) -> None:
+    mission = walking(1, until)
+    reactor = mission.record.reactors[0]
+    at = next(k for k in executed(reactor) if reactor.tokens[k].predicate == "Walk.Step")
+    (run,) = reactor.tokens[at].runs
+    open_run = run._replace(locals=(ValueRange(-inf, inf), *run.locals[1:]))
+    report = again(put(mission, 0, at, reactor.tokens[at]._replace(runs=(open_run,))))
+    assert [(one.kind, one.name) for one in report.disagreements] == [("draw", "GUST")]
 
 
 @pytest.mark.parametrize("name", MISSIONS)
