@@ -205,7 +205,8 @@ def test_five_mistakes_are_mended_by_quick_fixes_only(client: Any, tmp_path: Pat
         text = mended(text, first["edit"]["changes"][uri])
         told = client.change(uri, {"text": text})["diagnostics"]
     assert text == broken(right, *mistakes, form=-1)
-    assert fixes <= len(mistakes)
+    is_moved = any(len(mistake) > 2 for mistake in mistakes)  # what is moved is one mistake in two places
+    assert fixes < len(mistakes) if is_moved else fixes == len(mistakes)
     assert client.leave() == 0
 
 
