@@ -117,10 +117,16 @@ def measure(ground: Ground, flyer: Flyer, seed: int, bounds: Callable[[], Bounds
     sampled = {parameter.name for parameter in agent.parameters}
     sites = [site for site in sites_in(agent) if site.named not in sampled]
     for mutant in mutants_of(sites, seed):
-        overlay = with_edit((), mutant.edit)
-        models = load_models(ground.mission, open_over(overlay))
-        if not models.has_errors:
-            yield _measured(ground, mutant, overlay, models, flyer, bounds())
+        found = measure_mutant(ground, mutant, flyer, bounds())
+        if found is not None:
+            yield found
+
+
+def measure_mutant(ground: Ground, mutant: Mutant, flyer: Flyer, bounds: Bounds) -> MutantReport | None:
+    """Measure one mutant; None where it is no model any more."""
+    overlay = with_edit((), mutant.edit)
+    models = load_models(ground.mission, open_over(overlay))
+    return None if models.has_errors else _measured(ground, mutant, overlay, models, flyer, bounds)
 
 
 def _measured(

@@ -6,6 +6,7 @@ lines that bear on these. Where a property was violated, or a reactor ended with
 stands for them. Lines of rules whose predicate never held, nor was asked for in the mission, come after all others.
 """
 
+import re
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
@@ -20,7 +21,7 @@ from checker.proofs.places import ModelText
 from compiler.program import TOKEN_TIMES
 from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Span
-from runtime.executive.configuration import PropertyConfiguration
+from runtime.executive.configuration import PropertyConfiguration, TokenPattern
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import Abort, Conflict, Deadlock, ElementKind, Event, EventKind, Outcome, SourcePlace
 
@@ -32,6 +33,8 @@ _OUTSIDE = 3.0  # added where other lines contradict each other, whatever happen
 _TROUBLES = (EventKind.RELAX, EventKind.REJECT, EventKind.REFUSE, EventKind.KILL)
 _TELLING, _MOST_TOLD = 3.0, 0.6  # what a conflict tells of its lines together, and of one
 _ANSWERS, _TIME = (EventKind.REJECT, EventKind.REFUSE), "start"
+_MOMENTS = ("start", "end")
+_WORD = re.compile(r"[A-Za-z_]\w*")
 _UNSEEN = 4.0  # added for lines of a rule that nothing fired
 
 
@@ -106,6 +109,10 @@ def candidates_of(
         for number, far in asking.items():
             if number not in roots or roots[number][0] > far:
                 roots[number] = (far, Suspicion.CONFLICT)
+    for token, variable in sorted(observed):  # when a token came, who asked for it has said
+        for number in graph.asking(token, variable) if variable in _MOMENTS else ():
+            if number not in roots or roots[number][0] > _OBSERVED + _STEP:
+                roots[number] = (_OBSERVED + _STEP, Suspicion.CONFLICT)
     for predicate in sorted(_tokens_in(outcome, failed, first)):
         for number in graph.of_resource(predicate):
             if number not in roots or roots[number][0] > _LEVEL:
@@ -114,6 +121,9 @@ def candidates_of(
     predicates = _ended_by(outcome, held) | _violated(outcome, properties)
     if not roots and not predicates:
         predicates = set(_latest(outcome).values())
+    for predicate, name in sorted(_arguments(outcome, properties)):
+        for number in sorted(graph.of_predicate(predicate, name)):
+            roots.setdefault(number, (_OBSERVED, Suspicion.TRACE))
     named = {number for predicate in predicates for number in graph.of_predicate(predicate)}
     awaited = graph.expected_with(roots or named, held) if failed.deadlock is None else ()
     for far, numbers in (
@@ -252,14 +262,25 @@ def _predicates(outcome: Outcome) -> set[str]:
 
 def _violated(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> set[str]:
     """The predicates that the first violated property is about; of a timeline alone, what it held last."""
+    return {predicate for predicate, _ in _broken(outcome, properties)}
+
+
+def _arguments(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> set[tuple[str, str]]:
+    """The same, each with the words of what the property says of its arguments."""
+    broken = _broken(outcome, properties)
+    said = [(name, [*dict(pattern.parameters), *_WORD.findall(pattern.where)]) for name, pattern in broken]
+    return {(predicate, word) for predicate, words in said for word in words}
+
+
+def _broken(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> list[tuple[str, TokenPattern]]:
+    """The patterns of the first violated property, each with the predicate that it is about."""
     broken = next((one for one in outcome.properties if not one.is_kept), None)
-    found: set[str] = set()
-    for each in properties if outcome.abort is None and broken is not None else ():
-        assert broken is not None
-        for pattern in (each.pattern, each.then) if each.name == broken.name else ():
-            if pattern is not None:
-                found.add(pattern.predicate or _latest(outcome, broken.tick).get(pattern.timeline, ""))
-    return found - {""}
+    if outcome.abort is not None or broken is None:
+        return []
+    patterns = [pattern for each in properties if each.name == broken.name for pattern in (each.pattern, each.then)]
+    latest = _latest(outcome, broken.tick)
+    named = [(one.predicate or latest.get(one.timeline, ""), one) for one in patterns if one is not None]
+    return [(predicate, one) for predicate, one in named if predicate]
 
 
 def _latest(outcome: Outcome, tick: int | None = None) -> dict[str, str]:

@@ -76,10 +76,10 @@ class Dependence:
         for line in range(first, last + 1):
             yield from self._at.get((file, line), ())
 
-    def of_predicate(self, predicate: str) -> Iterable[int]:
-        """The sites that bear on a token of a predicate, whatever its class."""
+    def of_predicate(self, predicate: str, variable: str = "") -> Iterable[int]:
+        """The sites that bear on a token of a predicate, whatever its class; or on one parameter of it."""
         for key in self._users:
-            if key[0] == "token" and str(key[1]).rpartition(".")[2] == predicate:
+            if key[0] == "token" and str(key[1]).rpartition(".")[2] == predicate and variable in ("", key[2]):
                 yield from self._users[key]
 
     def of_resource(self, predicate: str) -> Iterator[int]:

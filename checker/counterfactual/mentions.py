@@ -80,7 +80,10 @@ class Mentions:
         return name if self._read[scope][name] and not is_set else ""
 
     def unsets(self, edit: SmallEdit, site: EditSite) -> bool:
-        """Whether nothing sets a variable of a rule any more that a line has set."""
+        """Whether nothing sets a variable of a rule any more that a line has set, or a line does so by itself."""
+        found = _SET.match(text := compared(site.after(edit)))
+        if found is not None and found.group(1) == edit.new and edit.new in _PATH.findall(text, found.end()):
+            return not self.is_set_by(edit, site)
         is_local = edit.old in self._locals[_scope(site)]
         return is_local and self.is_set_by(edit, site) and self._lacks(edit.old, site, True, 1)
 

@@ -15,6 +15,7 @@ from checker.counterfactual.damage import HEAVY, damage_of
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.loose_ends import loose_ends
 from checker.counterfactual.mission_lines import mission_lines
+from checker.counterfactual.moments import with_durations
 from checker.counterfactual.ranking import Causes, Claim, RankedLine, rank
 from checker.counterfactual.smallness import usage_of
 from checker.counterfactual.trials import Bounds, Missions, Trials, try_out
@@ -75,7 +76,7 @@ def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]
     for model in dict.fromkeys(each.model for each in agent.reactors):
         for site in sites_of(load_graph(root / model, overlay)):
             found.setdefault((site.file, site.first, site.text), site)
-    return with_additions(list(found.values()))
+    return with_durations(with_additions(list(found.values())))
 
 
 def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:

@@ -14,10 +14,11 @@ from checker.counterfactual.affinity import WORD, Affinity, is_kin
 from checker.counterfactual.bounds import Directions, is_result_moved, sets_value
 from checker.counterfactual.formulas import Formulas
 from checker.counterfactual.mentions import Mentions, is_doubled, leaves_one
-from checker.counterfactual.numbers import NUMERIC, digits, is_apart, is_farthest, is_raised, is_step, octaves
+from checker.counterfactual.moments import mixes_times, puts_times_right
+from checker.counterfactual.numbers import NUMERIC, digits, is_farthest, is_raised, is_step, octaves
 from checker.counterfactual.orders import Orders
 from checker.counterfactual.siblings import Siblings
-from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, sign_of, sort_of, sum_of
+from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, is_asked_for, sign_of, sort_of, sum_of
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit, inverse_of
 from checker.mutation.missing_lines import is_namesake, said_of
 
@@ -26,13 +27,12 @@ _LABEL = re.compile(r"\s+(\w+)\s*\)")
 _LOOSE = "any"  # the relation that demands nothing
 _TERM, _TERM_SOON = 3.0, 0.9  # of a sum or product without a part, and when that is tried
 _REPEATED, _REPEATED_SOON = 0.5, -0.2  # the same where both parts are one name
-_ADDED, _ADDED_SOON = 2.0, -0.4  # of what nothing reads in a line that its name does not speak of; when else tried
+_ADDED, _ADDED_SOON, _ADDED_LATER = 2.0, -0.4, 0.1  # of what nothing reads, and when: if a line speaks of it, if not
 _LINE, _LINE_SOON = 1.0, -0.4  # of a line that is missing, and when it is tried if no other can be meant there
 _SIBLING = 3.0  # of a name with which a line says of one axis what another says of another
 _RECAST = 0.3  # how much later what no mutant makes is tried
 _UNEQUAL, _EQUAL = "!=", "=="
 _WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
-_MOST_FOLLOW_UPS = 3
 _FEW = 3  # numbers so small that one more is much
 _LATER = 0.7  # what is no number, where most missions pass
 _SIDE = 0.1  # when it is tried whether a resource is consumed or produced: there is no third
@@ -51,6 +51,7 @@ _KIN_SOON = -0.2  # when a constant is tried that belongs better into a line
 _TWIN = 1.0  # odds of a line that is then written as another line is
 _TWIN_SOON = 0.6  # and how much sooner that is tried
 _NAMED = 2.0  # odds of the comparison that a constant's name asks for
+_MIXED, _UNMIXED = 3.0, 0.5  # of a line that holds a moment to a duration, and of one that does so no more
 _EDGE = 2.0  # odds that few missions fail for a number, not for what is wrong in all of them
 
 _MENTION, _ALIKE, _DOUBLED = 2.0, 1.5, 0.7  # odds that what lacks a mention is meant, or the same name on both sides
@@ -210,6 +211,7 @@ def is_loosening(edit: SmallEdit, site: EditSite) -> bool:
 def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     """How unlikely an edit is the repair; what takes a demand away altogether costs most."""
     form = _DROP if is_loosening(edit, site) else _form(edit, site, usage) + _structural(edit, usage)
+    form += _MIXED * mixes_times(edit, site)
     return form + _KINDS * math.log(max(usage.kinds[edit.kind], 1)) - _TWIN * usage.twins(edit, site)
 
 
@@ -223,6 +225,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     match edit.kind:
         case EditKind.RELATION if usage.orders.rights(edit, site):
             return 0.0
+        case EditKind.POINT | EditKind.TOKEN | EditKind.SIGN if puts_times_right(edit, site):
+            return _UNMIXED
         case EditKind.RELATION | EditKind.COMPARISON | EditKind.SIGN:
             freed = _FREED * usage.mentions.frees(edit, site)
             return 1.0 + _UNUSUAL * usage.odds(edit, site) + freed
@@ -280,6 +284,8 @@ def delay_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     What loosens most comes first: where it does not help, smaller ones seldom do.
     """
     delay = _delay(edit, site, usage)
+    if delay is not None and mixes_times(edit, site):
+        return _LATE
     if delay is None or edit.kind is EditKind.VALUE:  # what is asked once is not asked again
         return delay
     return delay - _TWIN_SOON * usage.twins(edit, site)
@@ -289,8 +295,10 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     match edit.kind:
         case EditKind.MISSION:
             return -1.0 if edit.old == "0" else None  # tried last
-        case EditKind.NAME | EditKind.LIMIT | EditKind.ARGUMENTS if usage.siblings.completes(edit, site):
+        case EditKind.POINT | EditKind.TOKEN | EditKind.SIGN if puts_times_right(edit, site):
             return -1.0  # seen without any flight
+        case EditKind.NAME | EditKind.LIMIT | EditKind.ARGUMENTS if usage.siblings.completes(edit, site):
+            return -1.0
         case EditKind.GOAL | EditKind.PROMISE:
             return None
         case EditKind.LIMIT if usage.is_swapped(edit):
@@ -316,7 +324,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             alike = 0.0 if is_namesake(edit.new) else math.log(len(others))
             return _LINE_SOON + _UNUSUAL * alike + _LATER * usage.passing
         case EditKind.MISSING:
-            return _ADDED_SOON if usage.is_wanted(edit, site) else 0.5
+            return _ADDED_SOON if usage.is_wanted(edit, site) else _ADDED_LATER
         case EditKind.TERM:
             is_alike = usage.mentions.makes_alike(edit, site) or _TWICE.fullmatch(edit.old)
             soon = _TERM_SOON - _DOUBLED * leaves_one(edit)
@@ -347,6 +355,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
         case EditKind.COMPARISON if sign_of(edit.new) == _UNEQUAL:
             return _LATE
+        case EditKind.COMPARISON if is_asked_for(edit, usage.affinity.sign_of(edit, site)):
+            return _KIN_SOON
         case EditKind.COMPARISON:
             return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
         case EditKind.CONSTANT:
@@ -361,34 +371,6 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return 1.2 if way == (-1 if is_raised(edit) else 1) else -0.3 if is_telling else _BETWEEN
         case EditKind.OFF_BY_ONE:
             return 0.4 if abs(float(edit.old)) <= _FEW else None
-
-
-def follow_ups(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]:
-    """Smaller edits of the same line, where this one has helped; the smallest first."""
-    mine = cost_of(edit, site, usage)
-    smaller = [
-        (cost_of(other, site, usage), number, other)
-        for number, other in enumerate(site.edits)
-        if is_apart(other, edit) or is_raised(other) == is_raised(edit)
-    ]
-    wanted = sorted(one for one in smaller if one[0] < mine)
-    kinds: dict[EditKind, SmallEdit] = {}
-    for _, _, other in wanted:
-        kinds.setdefault(other.kind, other)
-    each = list(kinds.values()) if edit.kind in DROPPED else [other for _, _, other in wanted]
-    return each[:_MOST_FOLLOW_UPS]
-
-
-def alternatives(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]:
-    """Other edits of the same line that change about as much."""
-    most = cost_of(edit, site, usage) + 0.5
-    others = [
-        (cost_of(other, site, usage), number, other)
-        for number, other in enumerate(site.edits)
-        if other != edit and other.kind not in DROPPED
-        if is_apart(other, edit) or is_raised(other) == is_raised(edit)
-    ]
-    return [other for cost, _, other in sorted(others)[:_MOST_FOLLOW_UPS] if cost <= most]
 
 
 def is_probe(edit: SmallEdit) -> bool:

@@ -15,14 +15,13 @@ from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.damage import HEAVY, collapsed_of, course_of, damage_of, is_farther, strayed_of
+from checker.counterfactual.follow_ups import alternatives, follow_ups
 from checker.counterfactual.numbers import between, is_doubling
 from checker.counterfactual.orders import is_order_turned
 from checker.counterfactual.smallness import (
     Usage,
-    alternatives,
     cost_of,
     delay_of,
-    follow_ups,
     is_loosening,
     is_probe,
 )

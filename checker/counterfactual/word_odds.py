@@ -83,6 +83,11 @@ def sign_of(word: str) -> str:
     return _SIGNS.get(word, word)
 
 
+def is_asked_for(edit: SmallEdit, wanted: str) -> bool:
+    """Whether an edit writes the `wanted` comparison where one of the other way stands."""
+    return bool(wanted) and sign_of(edit.new) == wanted and sign_of(edit.old)[:1] not in (wanted[:1], "=")
+
+
 def compared(text: str) -> str:
     """A comparison that is written as a call, with its sign: each operand stays where it stands in the line."""
     found = _NAMED.fullmatch(text)

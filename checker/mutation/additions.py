@@ -64,10 +64,10 @@ def _grown(site: EditSite, name: str, is_real: bool, is_local: bool) -> Iterator
     sums = [(whole, sign) for sign in "+-"] if not (is_real and is_time) else []
     terms = [one for one in _terms(site.text, *whole) if not set(_POINTS) & set(_WORD.findall(site.text[slice(*one)]))]
     inner = [_stripped(site.text, *one.span(1)) for one in _ROUNDED.finditer(site.text, *whole)]
-    products = [(one, "*") for one in (*inner, *(() if is_real and is_time else terms))]
+    products = [(one, sign) for one in (*inner, *(() if is_real and is_time else terms)) for sign in "*/"]
     for (first, last), sign in (*products, *sums) if is_local else (*sums, *products):
         old = site.text[first:last]
-        is_sum = sign == "*" and len(list(_terms(old, 0, len(old)))) > 1
+        is_sum = sign in "*/" and len(list(_terms(old, 0, len(old)))) > 1
         new = f"({old}) {sign} {name}" if is_sum else f"{old} {sign} {name}"
         line = site.first + site.text.count("\n", 0, first)
         yield SmallEdit(EditKind.MISSING, site.file, site.begin + first, site.begin + last, old, new, line)

@@ -7,7 +7,7 @@ from nddl_lang.syntax.nodes import BinaryExpr, Expr, FloatLiteral, IntLiteral, P
 from nddl_lang.text.source import Span
 
 _COMMUTING = ("addEq", "mulEq", "multEq", "eqSum", "eqProduct", "eqMinimum", "eqMaximum", "maxf", "minf")
-_OTHER_OPERATORS = {"+": "", "-": "*", "*": "-/", "/": "*"}  # beside those that mutants have
+_OTHER_OPERATORS = {"+": "/", "-": "*/", "*": "-/", "/": "*-+"}  # beside those that mutants have
 _SINGLE = (PathExpr, IntLiteral, FloatLiteral)
 _FEW_ARGUMENTS = 3  # of a constraint whose result may be mistaken for an input
 

@@ -1,0 +1,66 @@
+"""Sites in, out with edits that write a duration for a start or end; and whether times of one kind are compared.
+
+`probe.start >= open.duration + SOAK_MIN;` holds a moment to a span: `open.end` is meant. Two moments are never added,
+and none is multiplied.
+"""
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from checker.counterfactual.word_odds import compared
+from checker.mutation.edits import EditKind, EditSite, SmallEdit
+
+_SIDES = re.compile(r"([^<>=!&|?]+)(?:==|<=|>=|<|>)([^<>=!&|?]+);", re.DOTALL)
+_TIME = re.compile(r"([-+]?)\s*(?<![\w.])(?:\w+\.)?(start|end|duration)\b")
+_SCALED = re.compile(r"\b(?:start|end)\b\s*[*/]|[*/]\s*(?:\w+\.)?(?:start|end)\b")
+_POINT = re.compile(r"(?<![\w.])((?:\w+\.)?)(start|end|duration)\b")
+_SPAN = "duration"
+_OTHERS = {"start": (_SPAN,), "end": (_SPAN,), _SPAN: ("end", "start")}
+
+
+def with_durations(sites: Sequence[EditSite]) -> list[EditSite]:
+    """All sites; limits have edits that write a duration for a moment; a mixed line also the other way round."""
+    return [replace(site, edits=(*site.edits, *_exchanged(site))) if site.rule else site for site in sites]
+
+
+def _exchanged(site: EditSite) -> Iterator[SmallEdit]:
+    text = compared(site.text)
+    is_limit, is_mixed = _SIDES.fullmatch(text) is not None and "==" not in text, _is_mixed(site.text)
+    for found in _POINT.finditer(site.text) if is_limit or is_mixed else ():
+        if found.group(2) == _SPAN and not is_mixed:
+            continue  # what a duration is held to is hardly a moment
+        line = site.first + site.text.count("\n", 0, found.start())
+        span = (site.begin + found.start(), site.begin + found.end())
+        for other in _OTHERS[found.group(2)]:
+            edit = SmallEdit(EditKind.POINT, site.file, *span, found.group(), found.group(1) + other, line)
+            if not _is_mixed(site.after(edit)):
+                yield edit
+
+
+def puts_times_right(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether a line compares times of one kind after an edit, and does not before."""
+    return _is_mixed(site.text) and not _is_mixed(site.after(edit))
+
+
+def mixes_times(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether a line holds a moment to a span of time after an edit, and does not before."""
+    return _is_mixed(site.after(edit)) and not _is_mixed(site.text)
+
+
+def _is_mixed(text: str) -> bool:
+    sides = _SIDES.fullmatch(compared(text))
+    if sides is None:
+        return False
+    if any(_SCALED.search(side) for side in sides.groups()):
+        return True
+    if any(mark in side for side in sides.groups() for mark in "(*/"):
+        return False  # what comes of a product or call may be either
+    moments = [_moments(side) for side in sides.groups()]
+    return any(each not in (None, 0, 1) for each in moments) or set(moments) == {0, 1}
+
+
+def _moments(side: str) -> int | None:
+    """How many moments are left of a sum: 1 is a moment, 0 a span; None where it has no time of a token."""
+    times = _TIME.findall(side)
+    return sum(-1 if sign == "-" else 1 for sign, word in times if word != _SPAN) if times else None
