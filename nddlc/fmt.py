@@ -11,6 +11,7 @@ from nddl_lang.formatter.format import format_text
 from nddl_lang.lint.configuration import most_lexemes
 from nddl_lang.syntax.dialect import Dialect, declared_dialect
 from nddl_lang.text.diagnostic import Severity
+from nddl_lang.text.printable import printable
 from nddl_lang.text.render import render
 from nddlc.inputs import Unusable, chosen_dialect, colours, models_below, models_only, readable, write_text
 
@@ -49,10 +50,10 @@ def command(ctx: click.Context, files: tuple[str, ...], dialect: str | None, onl
             if with_diff:
                 click.echo(_difference(name, before, formatted.text), nl=False)
             elif only_check:
-                click.echo(f"would format {name}")
+                click.echo(f"would format {printable(name)}")
             elif name != _STDIN:
                 write_text(Path(name), formatted.text)
-                click.echo(f"formatted {name}")
+                click.echo(f"formatted {printable(name)}")
         if name == _STDIN and not dry:
             sys.stdout.buffer.write(formatted.text.encode("utf-8"))
     return int(broken > 0 or (dry and changed > 0))

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.printable import printable
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice", Severity.HINT: "notice"}
 
@@ -27,7 +28,8 @@ def command_line(command: str, properties: Mapping[str, str | int], text: str) -
 
 
 def _escaped(text: str) -> str:
-    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+    escaped = text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+    return printable(escaped)
 
 
 def _property(text: str) -> str:

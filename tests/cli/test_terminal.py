@@ -52,6 +52,14 @@ def test_nothing_of_a_project_commands_the_terminal(
         assert said and COMMANDS.search(said) is None
 
 
+def test_the_name_of_a_file_commands_nothing(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (project / f"a{EVIL.replace('/', '_')}.nddl").write_text("Foo   x;\n", encoding="utf-8")
+    for line in (["lint", "."], ["lint", "--format", "github", "."], ["fmt", "--check", "."], ["fmt", "."]):
+        run(line)
+        said = "".join(capsys.readouterr())
+        assert "nddl" in said and COMMANDS.search(said) is None
+
+
 def test_a_page_keeps_its_colours_alone() -> None:
     assert (
         fitted(f"\x1b[1;31mred\x1b[0m {LINK}", None)
