@@ -40,8 +40,8 @@ from nddl_lang.text.github import github_line
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.values import json_text
 from nddlc.batch_seed import BatchSeed
-from nddlc.fitting import say
-from nddlc.inputs import Unusable, chosen_dialect, colours, configured, mission_here, readable, write_text
+from nddlc.fitting import colours, say
+from nddlc.inputs import Unusable, chosen_dialect, configured, mission_here, readable, write_text
 from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.mission_trust import models_of

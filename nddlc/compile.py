@@ -12,7 +12,8 @@ from compiler.determined.codes import CHOICE_LEFT
 from compiler.determined.reasons import ChoiceReason
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
-from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
+from nddlc.fitting import colours
+from nddlc.inputs import Unusable, chosen_dialect, configured, readable
 from nddlc.one_mission import prepare
 from nddlc.trust import library_for, trust_option
 from runtime.determined.building import find_out

@@ -7,7 +7,8 @@ import click
 from checker.batch_xml import batch_toml, read_batch
 from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
-from nddlc.inputs import Unusable, colours, readable, write_text
+from nddlc.fitting import colours
+from nddlc.inputs import Unusable, readable, write_text
 
 _DONE, _UNUSABLE = 0, 2
 

@@ -1,4 +1,4 @@
-"""Lines for people in, lines that fit the terminal out: words are wrapped, lines of source are cut around the marks.
+"""Lines for people in, lines that fit the terminal out: wrapped, excerpts cut around the marks, places as links.
 
 Colours count for nothing; a word that is longer than the line, such as a path, stays whole.
 """
@@ -7,6 +7,7 @@ import os
 import re
 import shutil
 import sys
+from pathlib import Path
 
 import click
 
@@ -16,6 +17,10 @@ _CODE = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
 _SOURCE = re.compile(r"^\s*(?:\d+ \||\d+ [-+]|\|) ")  # the gutter of an excerpt
 _MARKS = re.compile(r"^\s*\| ( *)([-^]+)\s*$")
 _HANGING = re.compile(r"^\s*(?:(?:\d+\.?|[=*-]|-->)\s+)?(?:tick \d+: )?(?:(?:note|help): )?")
+_PLACE = re.compile(
+    r"^(?P<arrow>(?:\x1b\[[0-9;]*m|\s)*-->(?:\x1b\[[0-9;]*m|\s)+)(?P<place>(?P<file>[^\x1b\n]+?):(?P<line>\d+)(?::\d+)?)(?![^\s\x1b])",
+    re.MULTILINE,
+)
 _LEAST = 20  # columns
 _AHEAD = 12  # columns shown of what is marked
 
@@ -27,9 +32,27 @@ def columns() -> int | None:
     return None
 
 
+def colours() -> bool:
+    """Whether to colour: on a terminal, unless NO_COLOR is set."""
+    return sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+
+
 def say(text: str) -> None:
-    """Print a text that ends with a line end."""
-    click.echo(fitted(text, columns()), nl=False)
+    """Print a text that ends with a line end; on a terminal the places that it names are links."""
+    page = fitted(text, columns())
+    click.echo(linked(page) if colours() else page, nl=False)
+
+
+def linked(page: str) -> str:
+    """A page with each source place behind an arrow as a link to the file (OSC 8), where there is one."""
+    return _PLACE.sub(_link, page)
+
+
+def _link(place: re.Match[str]) -> str:
+    path = Path(place["file"])
+    if not path.is_file():
+        return place[0]
+    return f"{place['arrow']}\x1b]8;;{path.resolve().as_uri()}#{place['line']}\x1b\\{place['place']}\x1b]8;;\x1b\\"
 
 
 def fitted(text: str, width: int | None) -> str:

@@ -13,7 +13,8 @@ from nddl_lang.syntax.dialect import Dialect, declared_dialect
 from nddl_lang.text.diagnostic import Severity
 from nddl_lang.text.printable import printable
 from nddl_lang.text.render import render
-from nddlc.inputs import Unusable, chosen_dialect, colours, models_below, models_only, readable, write_text
+from nddlc.fitting import colours
+from nddlc.inputs import Unusable, chosen_dialect, models_below, models_only, readable, write_text
 
 _STDIN = "-"
 

@@ -8,7 +8,8 @@ from checker.goal_model import goal_model, planners_of
 from checker.mission import read_mission
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
-from nddlc.inputs import Unusable, colours
+from nddlc.fitting import colours
+from nddlc.inputs import Unusable
 
 
 def goals_of(file: Path, name: str | None) -> tuple[Path, str, str | None, int]:

@@ -2,7 +2,6 @@
 
 import os
 import stat
-import sys
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -220,8 +219,3 @@ def mission_here(given: str | None) -> str:
     raise Unusable(
         "several folders here have a `mission.toml`", "name one: " + ", ".join(f"`{each}`" for each in below)
     )
-
-
-def colours() -> bool:
-    """Whether to colour: on a terminal, unless NO_COLOR is set."""
-    return sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"

@@ -21,8 +21,8 @@ from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.sarif import sarif_of
 from nddl_lang.text.source import Span
 from nddl_lang.text.values import json_text
-from nddlc.fitting import say
-from nddlc.inputs import Unusable, chosen_dialect, colours, configured, model_paths, models_in, parts_in, write_text
+from nddlc.fitting import colours, say
+from nddlc.inputs import Unusable, chosen_dialect, configured, model_paths, models_in, parts_in, write_text
 from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.watch import WatchedCommand

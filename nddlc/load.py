@@ -6,8 +6,8 @@ import click
 
 from nddl_lang.text.render import render
 from nddl_lang.text.values import json_text
-from nddlc.fitting import columns, say
-from nddlc.inputs import chosen_dialect, colours, configured, model_files, models_only, readable
+from nddlc.fitting import colours, columns, say
+from nddlc.inputs import chosen_dialect, configured, model_files, models_only, readable
 from nddlc.trust import library_for, trust_option
 from runtime.loading import Loaded, as_data, load
 from runtime.plan.readout.state import PlanState

@@ -9,8 +9,8 @@ from checker.models import ModelSet
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
-from nddlc.fitting import columns, fitted
-from nddlc.inputs import Unusable, colours, readable
+from nddlc.fitting import colours, columns, fitted
+from nddlc.inputs import Unusable, readable
 from nddlc.mission_trust import models_of
 
 

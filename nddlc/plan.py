@@ -12,9 +12,9 @@ from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
 from nddl_lang.text.values import json_text
 from nddlc.cancellation import Clock
-from nddlc.fitting import columns, fitted, say
+from nddlc.fitting import colours, columns, fitted, say
 from nddlc.goals import goals_of
-from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
+from nddlc.inputs import Unusable, chosen_dialect, configured, readable
 from nddlc.trust import library_for, trust_option
 from runtime.constraints.domains.tags import HALF_INF, INF
 from runtime.limits import bounded, half_of_the_machine

@@ -15,7 +15,8 @@ from checker.study.cells import StudyCell, campaign_of, cell_of, lay_out, with_b
 from checker.study.reading import StudyFile, Variant, read_study
 from nddl_lang.text.render import render
 from nddlc.check import STORE, cores
-from nddlc.inputs import Unusable, colours, readable, write_text
+from nddlc.fitting import colours
+from nddlc.inputs import Unusable, readable, write_text
 from nddlc.mission_trust import models_of
 from nddlc.progress import Display
 from nddlc.trust import trust_option

@@ -16,8 +16,8 @@ from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.read import real_path
 from nddl_lang.text.render import render
 from nddl_lang.text.source import Span
-from nddlc.fitting import columns, fitted
-from nddlc.inputs import Unusable, colours
+from nddlc.fitting import colours, columns, fitted
+from nddlc.inputs import Unusable
 from runtime.user.library import Library, library_of
 
 Function = TypeVar("Function", bound=Callable[..., Any])

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from nddlc.fitting import fitted
+from nddlc.fitting import fitted, linked
 from nddlc.main import run
 
 ROOT = Path(__file__).parents[2]
@@ -75,3 +75,14 @@ def test_commands_fit(
             assert len(line) <= width or longest > width // 2, (words, line)
         if words[0] == "run":
             assert max(map(len, lines)) > width - 20  # the chart takes the room there is
+
+
+def test_places_are_links_on_a_terminal(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a b.nddl").write_text("int x;\n", encoding="utf-8")
+    uri = (tmp_path / "a b.nddl").as_uri()
+    at = "a b.nddl:3:14"
+    page = f"\x1b[1;34m  -->\x1b[0m {at}\n --> gone.nddl:3\nsee --> {at}\n   --> {at} (where it breaks)\n"
+    link = f"\x1b]8;;{uri}#3\x1b\\{at}\x1b]8;;\x1b\\"
+    told = f"\x1b[1;34m  -->\x1b[0m {link}\n --> gone.nddl:3\nsee --> {at}\n   --> {link} (where it breaks)\n"
+    assert linked(page) == told
