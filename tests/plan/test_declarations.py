@@ -56,6 +56,7 @@ BASES = {
         ("Store", "constraints/domains/store.pxd"),
         ("SupportWalk", "constraints/explanation/support_walk.pxd"),
         ("TeleoReactor", "executive/reactor.pxd"),
+        ("RowBlock", "rows/block.pxd"),
     )
 }
 

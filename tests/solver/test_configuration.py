@@ -167,7 +167,7 @@ def test_a_mistake_in_toml_is_told_with_its_line() -> None:
         ('filter = [{ component = "HorizonFilter" },\n  { perdicate = "p" }]', "2: `perdicate` means nothing here"),
         ('[manager]\ncomponent = "ThreatManager"\ndefault_priority = -1', "3: `default_priority` must be a number"),
         ('[[manager]]\ncomponent = "ThreatManager"\nhandler = 3', "3: `manager.handler` means nothing here"),
-        ('[[manager]]\n"compon\\u0065nt" = "ThreatManager"\n"lab\\u0065ls" = 1', "1: `labels` means nothing here"),
+        ('[[manager]]\n"compon\\u0065nt" = "ThreatManager"\n"lab\\u0065ls" = 1', "3: `labels` means nothing here"),
         ("[[manager]]\na = \nb = 1", "2: invalid value"),
     ],
 )
