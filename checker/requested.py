@@ -29,6 +29,7 @@ from compiler.program import (
     TokenVariable,
 )
 from runtime.executive.outcome import ConflictElement, ElementKind, Event, EventKind, SourcePlace
+from runtime.plan.readout.names import VariableName
 
 _EQUAL = "eq"
 _MOST = 6  # lines that are told of one argument
@@ -51,9 +52,7 @@ def lines_that_ask(
     `programs` are those of the reactors by name, `held` the predicates, without their classes, of what has happened:
     others have asked for nothing.
     """
-    variable = next(iter(element.variables), None)
-    if element.kind is not ElementKind.REQUEST or element.place is not None:
-        return ()
+    variable = _asked_variable(element)
     if variable is None or variable.token is None:
         return ()
     found: dict[InfluenceLine, None] = {}
@@ -86,9 +85,7 @@ def who_chose(
 
     To be asked of an element without `lines_that_ask`.
     """
-    variable = next(iter(element.variables), None)
-    if element.kind is not ElementKind.REQUEST or element.place is not None:
-        return None
+    variable = _asked_variable(element)
     if variable is None or variable.token is None or variable.name in TOKEN_TIMES:
         return None
     predicate = variable.token.predicate
@@ -103,6 +100,12 @@ def who_chose(
     place = line_of(next(iter(spans))) if len(spans) == 1 else None
     place = place and replace(place, file=relative_name(place.file, root))
     return PlannerChoice(asked[-1].reactor, f"{wanted}.{variable.name}", place)
+
+
+def _asked_variable(element: ConflictElement) -> VariableName | None:
+    """The variable of which an element says that it is as it was asked for; None where it says something else."""
+    is_asked = element.kind is ElementKind.REQUEST and element.place is None
+    return next(iter(element.variables), None) if is_asked else None
 
 
 def _value(element: ConflictElement) -> float | None:

@@ -252,12 +252,12 @@ def _conflict(conflict: Conflict | None, confirmation: Confirmation | None) -> l
 def _with_askers(steps: list[Step], outcome: Outcome, text: ModelText | None) -> Iterator[Step]:
     """The steps, with the lines by which an argument came to be asked for before the step that says so."""
     held = {predicate for *_, predicate in heads_of(outcome.events)}
-    held |= {event.predicate for event in single_events(outcome.events) if event.kind is EventKind.REQUEST}
+    events = single_events(outcome.events)
+    held |= {event.predicate for event in events if event.kind is EventKind.REQUEST}
     for step in steps:
         if isinstance(step.subject, ConflictElement) and text is not None:
             lines = lines_that_ask(step.subject, text.programs, text.root, held)
             yield from (Step(StepKind.ASKED, None, line, line.place) for line in lines)
-            events = single_events(outcome.events)
             if not lines and (chosen := who_chose(step.subject, text.programs, events, text.root)) is not None:
                 yield Step(StepKind.CHOSEN, None, chosen, chosen.place)
         yield step

@@ -15,13 +15,8 @@ from nddl_lang.text.source import Span
 _OWN_END = re.compile(r"(?<![\w.])(?:end|duration)\b")
 _ADDED = re.compile(r" \w+\.(\w+) == (?:\w+\.)*(\w+);")
 _TRUTHS = ("true", "false")
-_AROUND = (
-    "contained_by",
-    "met_by",
-    "after",
-    "starts_during",
-    "ends_during",
-)  # what is there already
+# By these a rule looks at what is there already: that need not be told what it is.
+_AROUND = ("contained_by", "met_by", "after", "starts_during", "ends_during")
 
 
 def missing_lines(statement: Any, rule: Span, names: LineScope, made: dict[str, Shape]) -> Iterator[tuple[Span, str]]:
