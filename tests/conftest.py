@@ -1,5 +1,6 @@
 """Choose, before any test imports the engine, in which form it is tested, and make chance reproducible."""
 
+import gc
 import os
 import signal
 from pathlib import Path
@@ -13,6 +14,9 @@ from freshness import unfit_binaries
 # Who is started in the background ignores Ctrl-C and hands that on: tests that send it would wait for ever.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+# Outcomes and schemas are many objects and no cycles, so garbage is looked for seldom.
+gc.set_threshold(50_000, 20, 100)
 
 # What is printed is as wide as the terminal; pytest-xdist hands on how wide that of the tests is.
 os.environ.pop("COLUMNS", None)

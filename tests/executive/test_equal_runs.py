@@ -93,7 +93,7 @@ def test_visiting_every_tick_changes_nothing() -> None:
 
 SHIPPED = ("gps", "auv/inl", "auv/front")
 RUNS = 10  # in each of two processes
-UNTIL = 1500  # of other flights
+UNTIL = 900  # of other flights
 LAST = None if "NDDLC_PROOFS" in os.environ else UNTIL  # the traces of whole missions take a minute and more
 
 

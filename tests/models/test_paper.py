@@ -3,18 +3,22 @@
 from dataclasses import replace
 from functools import cache
 from statistics import median
-from typing import Literal
+from typing import Any, Literal, NamedTuple
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from checker.mission import read_mission
 from checker.models import load_models
+from runtime.executive.events import EventLog
 from runtime.executive.mission import record_mission, run_mission
 from runtime.executive.outcome import Event, EventKind, Outcome
 from tests.models.test_models import MODELS, NOMINAL, fly
 from tests.programs import programs_of
 
 pytestmark = pytest.mark.once
+Numbers = NDArray[Any]
 MODES: tuple[Literal["inter", "intra"], ...] = ("inter", "intra")
 
 
@@ -30,9 +34,28 @@ def numbers(event: Event) -> dict[str, float]:
 
 
 def seen(outcome: Outcome, timeline: str, predicate: str) -> list[Event]:
-    """What was observed."""
-    found = [event for event in outcome.events if event.kind is EventKind.OBSERVATION and event.timeline == timeline]
+    """What was observed on a timeline that has a hundred tokens or fewer."""
+    assert isinstance(outcome.events, EventLog)
+    found = [event for event in outcome.events.on({timeline}) if event.kind is EventKind.OBSERVATION]
     return [event for event in found if event.predicate == predicate]
+
+
+class Steps(NamedTuple):
+    """The simulator's step of each tick: what it was for, and where the vehicle was."""
+
+    ticks: Numbers
+    kinds: list[str]
+    places: Numbers  # (n, 3), m
+
+
+def steps_of(outcome: Outcome) -> Steps:
+    """All steps as columns; one event for each of them would take longer than the flight."""
+    assert isinstance(outcome.events, EventLog)
+    (step,) = [one for _, one in outcome.events.published() if (one.timeline, one.predicate) == ("motion", "Step")]
+    columns = dict(zip(step.parameters, step.arguments.columns(), strict=True))
+    assert len(step.ticks) > outcome.last_tick - 10
+    kinds = [step.symbols[int(number)] for number in columns["kind"].numbers]
+    return Steps(step.ticks, kinds, np.stack([columns[name].numbers for name in "xyz"], axis=1))
 
 
 def kind(event: Event) -> str:
@@ -67,10 +90,10 @@ def test_a_larger_hit_rate_is_a_longer_time_at_the_surface_on_the_same_path() ->
         need = [numbers(event)["need"] for event in seen(outcome, "gps", "Active")]
         assert set(need) == {max(1.0, 10 * rate)}
         times.append(sum(need) / len(need))
-        steps = [event for event in seen(outcome, "motion", "Step") if "YoYo" in kind(event)]
-        paths.append([tuple(numbers(event)[name] for name in "xyz") for event in steps])
+        steps = steps_of(outcome)
+        paths.append(steps.places[["YoYo" in kind for kind in steps.kinds]])
     assert times == sorted(times) and len(set(times)) == len(times)
-    assert paths[0] == paths[-1]
+    assert np.array_equal(paths[0], paths[-1])
 
 
 @pytest.mark.parametrize("axis", "xy")
@@ -81,33 +104,29 @@ def test_the_error_of_navigation_shows_at_a_fix_alone(axis: str) -> None:
     assert fixes
     for fix in fixes:
         assert numbers(fix)[f"j{axis}"] == pytest.approx(rate * numbers(fix)["since"], abs=1e-6)
-    until = fixes[0].tick
-    estimates = [
-        [(one.tick, numbers(one)) for one in seen(flight, "motion", "Step") if one.tick < until]
-        for flight in (outcome, survey())
-    ]
-    told = [[(tick, each["x"], each["y"], each["z"]) for tick, each in flight] for flight in estimates]
-    assert told[0] == told[1]
-    steps = {one.tick: numbers(one) for one in seen(outcome, "motion", "Step")}
-    assert steps[until][axis] - steps[until - 1][axis] == pytest.approx(rate * numbers(fixes[0])["since"], abs=1e-6)
+    steps, calm = steps_of(outcome), steps_of(survey())
+    until = int(np.searchsorted(steps.ticks, fixes[0].tick))
+    assert np.array_equal(steps.ticks[:until], calm.ticks[:until])
+    assert np.array_equal(steps.places[:until], calm.places[:until])
+    jump = (steps.places[until] - steps.places[until - 1])["xy".index(axis)]
+    assert jump == pytest.approx(rate * numbers(fixes[0])["since"], abs=1e-6)
 
 
 @pytest.mark.parametrize("axis", "xy")
 def test_an_uneven_current_pushes_an_open_loop_leg_by_noise_times_time(axis: str) -> None:
     noise = -0.4
     outcome = survey(**{f"D{axis.upper()}_NOISE": noise})
-    steps = [event for event in seen(outcome, "motion", "Step") if "Loiter" in kind(event)]
-    last = [event for event in steps if event.tick > outcome.last_tick - 500]  # it drifts, nothing steers it
-    first = numbers(last[0])
-    assert len(last) == 500
-    for event in last:
-        assert numbers(event)[axis] - first[axis] == pytest.approx(noise * (event.tick - last[0].tick), abs=1e-6)
+    steps = steps_of(outcome)
+    drifts = ["Loiter" in kind for kind in steps.kinds] & (steps.ticks > outcome.last_tick - 500)  # nothing steers it
+    ticks, places = steps.ticks[drifts], steps.places[drifts, "xy".index(axis)]
+    assert len(ticks) == 500
+    assert places - places[0] == pytest.approx(noise * (ticks - ticks[0]), abs=1e-6)
 
 
-def path(outcome: Outcome) -> list[tuple[float, float]]:
-    """Where the vehicle was, each ten ticks."""
-    steps = (numbers(event) for event in seen(outcome, "motion", "Step") if event.tick % 10 == 0)
-    return [(step["x"], step["y"]) for step in steps]
+def path(outcome: Outcome) -> Numbers:
+    """Where the vehicle was, each ten ticks, m."""
+    steps = steps_of(outcome)
+    return steps.places[steps.ticks % 10 == 0, :2]
 
 
 @pytest.mark.slow
@@ -125,7 +144,7 @@ def test_noise_that_changes_within_a_mission_looks_like_the_standard_path() -> N
         distances = []
         for seed in range(20):
             flown = path(run_mission(replace(agent, parameters=tuple(noise)), programs, seed, calm, until=12_000))[::5]
-            squares = [min((x - u) ** 2 + (y - v) ** 2 for u, v in standard) for x, y in flown]
-            distances.append((sum(squares) / len(squares)) ** 0.5)
+            squares = ((flown[:, None] - standard) ** 2).sum(axis=2).min(axis=1)
+            distances.append(float(squares.mean()) ** 0.5)
         medians.append(median(distances))
     assert medians[1] < 0.1 * medians[0]
