@@ -22,6 +22,7 @@ from runtime.executive.outcome import Event, EventKind, SourcePlace
 from runtime.executive.record import BodyRun, GuardRun, MissionRecord, ReactorRecord
 
 _EVENTS = 1 << 32
+_TROUBLES = 1 << 33
 _TOLD = (EventKind.REQUEST, EventKind.REFUSE, EventKind.REJECT, EventKind.RELAX, EventKind.KILL)
 
 
@@ -132,19 +133,25 @@ class Universe:
             sites = self._of[id(program)]
             for run in _runs(reactor):
                 sites.note(run, sites.rules[run.rule], found)
-        shapes: set[tuple[str, ...]] = {
-            (event.kind.value, event.reactor, event.timeline, event.predicate, str(event.stage or ""))
-            for event in single_events(events)
-            if event.kind in _TOLD
-        }
+        shapes: dict[int, set[tuple[str, ...]]] = {_EVENTS: set(), _TROUBLES: set()}
+        for event in single_events(events):
+            if event.kind in _TOLD:
+                shape = (event.kind.value, event.reactor, event.timeline, event.predicate, str(event.stage or ""))
+                shapes[_EVENTS if event.kind is EventKind.REQUEST else _TROUBLES].add(shape)
         for reactor in record.reactors:
-            shapes |= {("token", reactor.reactor, *pair) for pair in _held(reactor)}
-        return (*sorted(found), *sorted(_EVENTS + zlib.crc32("\0".join(shape).encode()) for shape in shapes))
+            shapes[_EVENTS] |= {("token", reactor.reactor, *pair) for pair in _held(reactor)}
+        numbers = (first + zlib.crc32("\0".join(one).encode()) for first, of in shapes.items() for one in of)
+        return (*sorted(found), *sorted(numbers))
 
 
 def is_event(feature: int) -> bool:
     """Whether a feature is a kind of event, whose number does not depend on what else the programs have."""
     return feature >= _EVENTS
+
+
+def is_trouble(feature: int) -> bool:
+    """Whether a feature is a refusal, a rejection, a repair or the end of a reactor: nobody asks for these."""
+    return feature >= _TROUBLES
 
 
 def _runs(reactor: ReactorRecord) -> Iterator[BodyRun | RunColumns]:

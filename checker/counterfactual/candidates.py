@@ -21,11 +21,12 @@ from checker.proofs.places import ModelText
 from compiler.program import TOKEN_TIMES
 from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Span
-from runtime.executive.configuration import PropertyConfiguration, TokenPattern
+from runtime.executive.configuration import PropertyConfiguration, PropertyKind, TokenPattern
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import Abort, Conflict, Deadlock, ElementKind, Event, EventKind, Outcome, SourcePlace
 
 _CULPRIT, _CONFLICT, _LOG, _OBSERVED, _COVERED, _EVENT, _AWAITED, _NAMED = 0.0, 0.25, 0.5, 0.5, 0.75, 1.0, 1.0, 1.5
+_UNSAID = 3.0  # of what bears on a token, where a property says what its arguments are
 _STEP = 0.3  # of a line behind another one, by a local variable of a rule whose token was observed
 _PASSED = 0.4  # length of the way through a line that only passes a value on
 _LEVEL = 0.5  # of what changes the level of a resource that rules something out
@@ -121,14 +122,18 @@ def candidates_of(
     predicates = _ended_by(outcome, held) | _violated(outcome, properties)
     if not roots and not predicates:
         predicates = set(_latest(outcome).values())
-    for predicate, name in sorted(_arguments(outcome, properties)):
+    arguments = _arguments(outcome, properties)
+    for predicate, name in sorted(arguments):
         for number in sorted(graph.of_predicate(predicate, name)):
-            roots.setdefault(number, (_OBSERVED, Suspicion.TRACE))
-    named = {number for predicate in predicates for number in graph.of_predicate(predicate)}
+            if _sets(graph.sites[number].text, name):
+                roots.setdefault(number, (_OBSERVED, Suspicion.TRACE))
+    spoken = {predicate for predicate, _ in arguments} if _is_of_values(outcome, properties) else set[str]()
+    named = {number for predicate in predicates - spoken for number in graph.of_predicate(predicate)}
     awaited = graph.expected_with(roots or named, held) if failed.deadlock is None else ()
     for far, numbers in (
         (_AWAITED, {number for predicate in awaited for number in graph.of_predicate(predicate)}),
         (_NAMED, named),
+        (_UNSAID, {number for predicate in spoken for number in graph.of_predicate(predicate)}),
     ):
         for number in sorted(numbers):
             if number not in roots or roots[number][0] > far:
@@ -270,6 +275,17 @@ def _arguments(outcome: Outcome, properties: Sequence[PropertyConfiguration]) ->
     broken = _broken(outcome, properties)
     said = [(name, [*dict(pattern.parameters), *_WORD.findall(pattern.where)]) for name, pattern in broken]
     return {(predicate, word) for predicate, words in said for word in words}
+
+
+def _is_of_values(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> bool:
+    """Whether the first violated property forbids values, whenever they come."""
+    broken = next((one.name for one in outcome.properties if not one.is_kept), "")
+    return any(each.name == broken and each.kind in (PropertyKind.NEVER, PropertyKind.ALWAYS) for each in properties)
+
+
+def _sets(text: str, name: str) -> bool:
+    """Whether a line says what an argument is."""
+    return re.match(rf"\s*(?:\w+\.)?{name}\s*==", text) is not None
 
 
 def _broken(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> list[tuple[str, TokenPattern]]:

@@ -1,5 +1,7 @@
 """A mission flown with a change in; out: what happened, what it has lost though it passed, what it no longer does."""
 
+import math
+
 from checker.batch.result import MissionResult
 from checker.coverage import left_out
 from checker.losses import GoalFate
@@ -12,10 +14,13 @@ _STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no
 
 
 def damage_of(result: MissionResult) -> float:
-    """What a mission that passed has lost all the same: goals weigh most, then requests, then repairs."""
+    """What a mission that passed has lost all the same: goals weigh most, then requests, then repairs.
+
+    The more was lost, the less one more of it tells: many are usual in some models.
+    """
     losses = result.losses
     goals = len(losses.goals) - losses.count(GoalFate.ACHIEVED)
-    return 10.0 * goals + 1.0 * (losses.lost + losses.dropped) + 0.5 * losses.repaired
+    return HEAVY * goals + math.log2(1.0 + losses.lost + losses.dropped + 0.5 * losses.repaired)
 
 
 def is_farther(result: MissionResult, failed: MissionResult) -> bool:

@@ -145,11 +145,20 @@ class Dependence:
         return {name.rpartition(".")[2] for name in found}
 
     def beside(self, site: EditSite) -> set[EditSite]:
-        """The other lines that speak of a variable of a line, where few do."""
+        """The other lines that speak of a variable of a line, where few do.
+
+        Also the numbers that these read, and the conditions that they stand under.
+        """
         numbers = [one for one in self.at(site.file, site.first) if self.sites[one] is site]
         groups = [self._users[key] for one in numbers for key in self._keys[one]]
-        found = {self.sites[one] for group in groups if len(group) <= _MOST_BESIDE for one in group}
-        return found - {site}
+        found = {one for group in groups if len(group) <= _MOST_BESIDE for one in group}
+        read = {key for one in found for key in self._keys[one] if key[0] == "global" or "guard" in key}
+        found |= {one for key in read for one in self._users[key] if self._is_behind(one, key)}
+        return {self.sites[one] for one in found} - {site}
+
+    def _is_behind(self, site: int, key: Key) -> bool:
+        """Whether a site is the number that lines read by a key, or the condition that they stand under."""
+        return self.sites[site].is_number if key[0] == "global" else not self.sites[site].text.endswith(";")
 
     def distances(self, roots: Mapping[int, float], through: float = 1.0) -> dict[int, float]:
         """How far each site is from the nearest root, whose own distance is given: shortest ways through variables.

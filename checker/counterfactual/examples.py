@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from checker.batch.result import MissionResult
 from checker.counterfactual.trials import Missions
-from checker.coverage import is_event
+from checker.coverage import is_event, is_trouble
 
 _MOST_FAILED = 3
 _MOST_PASSED = 2
@@ -39,9 +39,10 @@ def _only_exercised_by(failed: Sequence[MissionResult], passed: Sequence[Mission
 
 
 def _usual(passed: Sequence[MissionResult]) -> frozenset[int]:
-    """The kinds of events of all missions that passed."""
+    """The kinds of events of all missions that passed, but for troubles: a mission does well without."""
     behaviours = _behaviours(passed)
-    return frozenset(filter(is_event, frozenset.intersection(*behaviours))) if behaviours else frozenset()
+    common = frozenset.intersection(*behaviours) if behaviours else frozenset()
+    return frozenset(one for one in common if is_event(one) and not is_trouble(one))
 
 
 def _behaviours(results: Sequence[MissionResult]) -> list[frozenset[int]]:

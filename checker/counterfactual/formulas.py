@@ -27,6 +27,7 @@ _USUAL = {
 }
 _SAME, _KIN = 3.0, 5.0  # what the same two names elsewhere count, and a constant beside the name that it bears
 _PLACE = 0.5  # of an argument that stands nowhere else
+_NEEDLESS = 2.0  # of parentheses that a line does not need: people write `DRIVE / (tonnes * friction)`
 _MOST_SAID = 2.5  # by other lines for or against an expression
 
 _Pair = tuple[str, str, str]
@@ -57,7 +58,9 @@ class Formulas:
         before, after = list(self._pairs(site.text)), list(self._pairs(site.after(edit)))
         kept = Counter(before) & Counter(after)
         old, new = (Counter(one) - kept for one in (before, after))
-        return sum(self._weight(one, 1) for one in old.elements()) - sum(self._weight(one, 0) for one in new.elements())
+        idle = _NEEDLESS * (_needless(site.after(edit)) - _needless(site.text))
+        known = sum(self._weight(one, 1) for one in old.elements())
+        return idle + known - sum(self._weight(one, 0) for one in new.elements())
 
     def _weight(self, pair: _Pair, own: int) -> float:
         """Logarithm of the share of an operator among those that join such operands, its `own` mention left out."""
@@ -102,6 +105,27 @@ class Formulas:
         if word in (_ROUND, _SUM):
             return _ROUND if word == _ROUND else _NAME
         return _NUMBER if word[0].isdigit() else _CONSTANT if word in self._constants else _NAME
+
+
+def _needless(text: str) -> int:
+    """How many parentheses of a line say nothing: they are no call's, and no operator beside them needs them."""
+    tokens = ["", *_TOKEN.findall(text), ""]
+    opened: list[int] = []
+    found = 0
+    for at, token in enumerate(tokens):
+        if token == "(":
+            opened.append(at)
+        elif token == ")" and opened:
+            first = opened.pop()
+            before, after = tokens[first - 1], tokens[at + 1]
+            depth, signs = 0, set[str]()
+            for one in tokens[first + 1 : at]:
+                depth += (one == "(") - (one == ")")
+                signs |= {one} if depth == 0 and one in "+-*/<>" else set()
+            is_scaled = before in ("*", "/", "-") or after in ("*", "/")
+            is_needed = before == "/" or (is_scaled and signs & {"+", "-"}) or signs & {"<", ">"} or not signs
+            found += not (before[:1].isalnum() or before[:1] == "_" or is_needed) and before in ("+", "-", "*")
+    return found
 
 
 def _within(odds: float) -> float:

@@ -36,6 +36,8 @@ class Mentions:
         self._of_rule: dict[str, Counter[str]] = defaultdict(Counter)
         self._predicates: dict[object, dict[str, str]] = defaultdict(dict)  # of the tokens of a rule, by their labels
         self._own: dict[str, set[str]] = defaultdict(set)  # what the rules of a predicate set themselves
+        self._found_out: dict[str, set[str]] = defaultdict(set)  # what they set from variables of their own
+        self._same_as: dict[object, dict[str, set[str]]] = defaultdict(lambda: defaultdict(set))
         for site in sites:
             if not site.rule or site.is_rule:
                 continue
@@ -58,6 +60,11 @@ class Mentions:
                 self._read[scope][name] += 1
                 self._called[scope][name] += skipped == 0 and _CALL.match(text) is not None
             self._of_rule[site.rule].update(_PATH.findall(text))
+            if (sides := _SAME.fullmatch(text)) is not None:
+                for one, other in (sides.groups(), sides.groups()[::-1]):
+                    self._same_as[scope][one].add(other)
+                    if other in self._locals[scope]:
+                        self._found_out[site.rule.rpartition(".")[2]].add(one)
 
     def gain(self, edit: SmallEdit, site: EditSite) -> float:
         """How much more is mentioned that lacked it than with the old name; 1 for a parameter of the rule."""
@@ -79,11 +86,28 @@ class Mentions:
         is_set = self._set[scope][name] or self._called[scope][name]
         return name if self._read[scope][name] and not is_set else ""
 
+    def is_found_out(self, name: str, site: EditSite) -> bool:
+        """Whether the rules of a token set one of its parameters from variables of their own: its owner tells it."""
+        label, _, parameter = name.partition(".")
+        return parameter in self._found_out.get(self._predicates[_scope(site)].get(label, ""), ())
+
+    def says_the_same(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether other lines of the rule say that a new name is the same as the old one, or as a shorter name."""
+        others = self._same_as[_scope(site)][edit.new]
+        return any(one == edit.old or one.count(".") < edit.new.count(".") for one in others)
+
     def unsets(self, edit: SmallEdit, site: EditSite) -> bool:
-        """Whether nothing sets a variable of a rule any more that a line has set, or a line does so by itself."""
+        """Whether nothing sets a variable of a rule any more that a line has set, or a line does so by itself.
+
+        So does one that sets it from what another line of the rule says is the same.
+        """
         found = _SET.match(text := compared(site.after(edit)))
-        if found is not None and found.group(1) == edit.new and edit.new in _PATH.findall(text, found.end()):
-            return not self.is_set_by(edit, site)
+        if found is not None:
+            same = {found.group(1)}
+            if _SAME.fullmatch(text) is None:
+                same |= self._same_as[_scope(site)][found.group(1)]
+            if edit.new in same and edit.new in _PATH.findall(text, found.end()):
+                return not self.is_set_by(edit, site)
         is_local = edit.old in self._locals[_scope(site)]
         return is_local and self.is_set_by(edit, site) and self._lacks(edit.old, site, True, 1)
 

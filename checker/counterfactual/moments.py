@@ -4,7 +4,9 @@
 and none is multiplied.
 """
 
+import math
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -14,6 +16,11 @@ from checker.mutation.edits import EditKind, EditSite, SmallEdit
 _SIDES = re.compile(r"([^<>=!&|?]+)(?:==|<=|>=|<|>)([^<>=!&|?]+);", re.DOTALL)
 _TIME = re.compile(r"([-+]?)\s*(?<![\w.])(?:\w+\.)?(start|end|duration)\b")
 _SCALED = re.compile(r"\b(?:start|end)\b\s*[*/]|[*/]\s*(?:\w+\.)?(?:start|end)\b")
+_ROUNDED = re.compile(r"\b(?:ceil|floor|round)\s*\(")
+_MOMENT, _END = re.compile(r"(?:\w+\.)?(?:start|end)"), re.compile(r"\b(?:start|end)\b")
+_LIMITED = re.compile(r"\s*(?:\w+\.)?(start|end|duration)\s*(?:<=|>=|<|>)\s*(?:\d+|[A-Z][A-Z0-9_]*)\s*;")
+# How often a time is held to a bare constant, before any line of the model is read: few know when anything comes.
+_USUAL = {"duration": 4.0, "end": 1.5, "start": 1.0}
 _POINT = re.compile(r"(?<![\w.])((?:\w+\.)?)(start|end|duration)\b")
 _SPAN = "duration"
 _OTHERS = {"start": (_SPAN,), "end": (_SPAN,), _SPAN: ("end", "start")}
@@ -38,6 +45,25 @@ def _exchanged(site: EditSite) -> Iterator[SmallEdit]:
                 yield edit
 
 
+class TimeLimits:
+    """Which times of tokens the lines of models hold to a bare constant."""
+
+    def __init__(self, sites: Sequence[EditSite]) -> None:
+        self._counts = Counter(found.group(1) for site in sites if (found := _limited(site.text)) is not None)
+
+    def odds(self, edit: SmallEdit, site: EditSite) -> float:
+        """Logarithm of how much likelier the new time of a limit is meant than the old one; 0 in other lines."""
+        before, after = _limited(site.text), _limited(site.after(edit))
+        if before is None or after is None:
+            return 0.0
+        old, new = before.group(1), after.group(1)
+        return math.log((_USUAL[new] + self._counts[new]) / (_USUAL[old] + self._counts[old] - 1))
+
+
+def _limited(text: str) -> re.Match[str] | None:
+    return _LIMITED.fullmatch(compared(text))
+
+
 def puts_times_right(edit: SmallEdit, site: EditSite) -> bool:
     """Whether a line compares times of one kind after an edit, and does not before."""
     return _is_mixed(site.text) and not _is_mixed(site.after(edit))
@@ -54,6 +80,8 @@ def _is_mixed(text: str) -> bool:
         return False
     if any(_SCALED.search(side) for side in sides.groups()):
         return True
+    if "==" in text and _ROUNDED.search(text) and any(_MOMENT.fullmatch(side.strip()) for side in sides.groups()):
+        return len(_END.findall(text)) == 1  # what is rounded is a span
     if any(mark in side for side in sides.groups() for mark in "(*/"):
         return False  # what comes of a product or call may be either
     moments = [_moments(side) for side in sides.groups()]

@@ -14,7 +14,7 @@ from checker.counterfactual.affinity import WORD, Affinity, is_kin
 from checker.counterfactual.bounds import Directions, is_result_moved, sets_value
 from checker.counterfactual.formulas import Formulas
 from checker.counterfactual.mentions import Mentions, is_doubled, leaves_one
-from checker.counterfactual.moments import mixes_times, puts_times_right
+from checker.counterfactual.moments import TimeLimits, mixes_times, puts_times_right
 from checker.counterfactual.numbers import NUMERIC, digits, is_farthest, is_raised, is_step, octaves
 from checker.counterfactual.orders import Orders
 from checker.counterfactual.siblings import Siblings
@@ -29,6 +29,7 @@ _TERM, _TERM_SOON = 3.0, 0.9  # of a sum or product without a part, and when tha
 _REPEATED, _REPEATED_SOON = 0.5, -0.2  # the same where both parts are one name
 _ADDED, _ADDED_SOON, _ADDED_LATER = 2.0, -0.4, 0.1  # of what nothing reads, and when: if a line speaks of it, if not
 _LINE, _LINE_SOON = 1.0, -0.4  # of a line that is missing, and when it is tried if no other can be meant there
+_HANDED_ON, _TOLD = 0.5, 2.5  # of one that hands on what has the same name, and of one on what the owner tells
 _SIBLING = 3.0  # of a name with which a line says of one axis what another says of another
 _RECAST = 0.3  # how much later what no mutant makes is tried
 _UNEQUAL, _EQUAL = "!=", "=="
@@ -45,11 +46,13 @@ _UNUSUAL = 0.5  # how much the odds count that a word is meant
 _OCTAVE = 0.15  # for each doubling of a constant
 _DIGIT = 0.1  # for each digit that a constant has more
 _IDLE = 2.5  # odds of a constant that nothing uses any more, or where the range of a draw is used as a number
+_RANGE = 4.0  # and of such a range in place of a number
 _KIN = 0.6  # odds for each point of affinity that a constant has more for a line than another
 _LAST_USE = 2.0  # odds that a constant is not declared for nothing
 _KIN_SOON = -0.2  # when a constant is tried that belongs better into a line
 _TWIN = 1.0  # odds of a line that is then written as another line is
 _TWIN_SOON = 0.6  # and how much sooner that is tried
+_LIMITED = 1.0  # how much the odds count of a time that is held to a bare constant
 _NAMED = 2.0  # odds of the comparison that a constant's name asks for
 _MIXED, _UNMIXED = 3.0, 0.5  # of a line that holds a moment to a duration, and of one that does so no more
 _EDGE = 2.0  # odds that few missions fail for a number, not for what is wrong in all of them
@@ -97,6 +100,7 @@ class Usage:
     formulas: Formulas
     orders: Orders
     siblings: Siblings
+    limits: TimeLimits
     passing: float = 0.0
 
     def is_swapped(self, edit: SmallEdit) -> bool:
@@ -192,7 +196,7 @@ def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0, is_late: bool =
     named = {site.named for site in sites if site.named}
     mentions = Mentions(sites, named, counts)
     directions = Directions(sites, named, is_late=is_late)
-    lines = (Formulas(sites, named), Orders(sites), Siblings(sites))
+    lines = (Formulas(sites, named), Orders(sites), Siblings(sites), TimeLimits(sites))
     affinity = Affinity(sites, named)
     return Usage(counts, named, kinds, meant, sampled, affinity, sums, mentions, directions, *lines, passing)
 
@@ -225,7 +229,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     match edit.kind:
         case EditKind.RELATION if usage.orders.rights(edit, site):
             return 0.0
-        case EditKind.POINT | EditKind.TOKEN | EditKind.SIGN if puts_times_right(edit, site):
+        case EditKind.NAME | EditKind.POINT | EditKind.TOKEN | EditKind.SIGN if puts_times_right(edit, site):
             return _UNMIXED
         case EditKind.RELATION | EditKind.COMPARISON | EditKind.SIGN:
             freed = _FREED * usage.mentions.frees(edit, site)
@@ -233,6 +237,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.LIMIT:
             belongs = _KIN * usage.gain(edit, site) - _LAST_USE * usage.strands(edit)
             belongs += _AGREES * ((edit.begin, edit.new) in site.agreeing)
+            belongs -= _RANGE * (edit.new in usage.sampled)
             return 1.5 - _IDLE * usage.is_swapped(edit) - belongs
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
             far = 0.0 if site.named and float(edit.old) == 0.0 else octaves(edit)  # who names a number has one
@@ -261,7 +266,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.MISSING:
             return _ADDED * (not usage.is_wanted(edit, site))
         case EditKind.LINE:
-            return 0.5 if is_namesake(edit.new) else _LINE
+            told = _TOLD * usage.mentions.is_found_out(said_of(edit.new).strip(), site)
+            return told + (_HANDED_ON if is_namesake(edit.new) else _LINE)
         case EditKind.MISSION:
             return 3.0
         case EditKind.TERM:
@@ -273,7 +279,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             cases = _CASE * usage.mentions.case_gain(edit, site) if is_case else 0.0
             return _VALUE + _LAST_CASE * usage.strands_value(edit, site) - cases
         case EditKind.NAME | EditKind.POINT | EditKind.TOKEN:
-            return 2.0 - usage.fitness(edit, site) - _SIBLING * usage.siblings.completes(edit, site)
+            usual = _LIMITED * usage.limits.odds(edit, site)
+            return 2.0 - usage.fitness(edit, site) - _SIBLING * usage.siblings.completes(edit, site) - usual
         case _:
             return 1.0
 
@@ -295,7 +302,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     match edit.kind:
         case EditKind.MISSION:
             return -1.0 if edit.old == "0" else None  # tried last
-        case EditKind.POINT | EditKind.TOKEN | EditKind.SIGN if puts_times_right(edit, site):
+        case EditKind.NAME | EditKind.POINT | EditKind.TOKEN | EditKind.SIGN if puts_times_right(edit, site):
             return -1.0  # seen without any flight
         case EditKind.NAME | EditKind.LIMIT | EditKind.ARGUMENTS if usage.siblings.completes(edit, site):
             return -1.0
@@ -303,6 +310,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return None
         case EditKind.LIMIT if usage.is_swapped(edit):
             return -1.0
+        case EditKind.LIMIT if edit.new in usage.sampled:
+            return _LATE
         case EditKind.LIMIT if (edit.begin, edit.new) in site.agreeing:
             return _KIN_SOON - 0.1 * usage.gain(edit, site)
         case EditKind.LIMIT:
@@ -319,6 +328,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.OPERATOR | EditKind.FORMULA:
             rare = _RECAST * (edit.kind is EditKind.FORMULA and len(edit.old) == 1)
             return 0.5 + rare + _UNUSUAL * usage.formulas.odds(edit, site) + _LATER * usage.passing
+        case EditKind.LINE if usage.mentions.is_found_out(said_of(edit.new).strip(), site):
+            return _LATE
         case EditKind.LINE:
             others = [one for one in site.rivals(edit, edit.kind) if said_of(one.new) == said_of(edit.new)]
             alike = 0.0 if is_namesake(edit.new) else math.log(len(others))
@@ -329,6 +340,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             is_alike = usage.mentions.makes_alike(edit, site) or _TWICE.fullmatch(edit.old)
             soon = _TERM_SOON - _DOUBLED * leaves_one(edit)
             return _REPEATED_SOON if is_alike else soon + _LATER * usage.passing
+        case EditKind.NAME if usage.mentions.says_the_same(edit, site):
+            return _LATE
         case EditKind.NAME:
             fitness = usage.fitness(edit, site)
             is_set = usage.mentions.is_set_by(edit, site)
@@ -340,7 +353,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.PREDICATE if edit.old in EVENTS:
             return _SIDE
         case EditKind.POINT | EditKind.TOKEN:
-            return 0.5 - 0.5 * usage.fitness(edit, site) + _LATER * usage.passing
+            usual = usage.fitness(edit, site) + _LIMITED * usage.limits.odds(edit, site)
+            return 0.5 - 0.5 * usual + _LATER * usage.passing
         case EditKind.PREDICATE:
             return 0.5 - usage.presence(edit, site) + _LATER * usage.passing
         case EditKind.DROPPED_CONSTRAINT:

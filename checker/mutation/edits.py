@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
+from checker.mutation.agreement import Agreement
 from checker.mutation.exchanges import exchangeable, exchanged, misplaced, recast, shortened
 from checker.mutation.missing_lines import missing_lines
 from checker.mutation.names import other_names, other_points, other_tokens, other_values, tautologies
@@ -168,9 +169,9 @@ class _Reader:
 
     def __init__(self, loaded: LoadedModules, names: dict[str, str]) -> None:
         self._files = {source: str(real_path(path)) for source, path in loaded.paths.items()}
-        self._kinds = names
         self._limits = sorted(name for name, kind in names.items() if kind in _NUMBERS)
         self._scopes = Scopes(loaded.module.statements, self._limits)
+        self._types = Agreement(names)
 
     def sites(self, statement: Any) -> Iterator[EditSite]:
         """The sites of a top-level statement."""
@@ -260,21 +261,13 @@ class _Reader:
     def _agreeing(self, node: Any, names: LineScope, edits: Iterable[SmallEdit]) -> frozenset[tuple[int, str]]:
         """The names that would be of the type of the other side of `==`, where the one that stands there is not."""
         expr = node.expression if isinstance(node, ExprConstraint) else None
-        if not (isinstance(expr, BinaryExpr) and expr.op == "=="):
-            return frozenset()
-        left, right = (self._kind_of(side.span.text, names) for side in (expr.left, expr.right))
-        if not left or not right or left == right:
-            return frozenset()
-        wanted = {expr.left.span.begin: right, expr.right.span.begin: left}
+        wanted = {span.begin: kind for span, kind in self._types.wanted(expr, names)}
         return frozenset(
             (edit.begin, edit.new)
             for edit in edits
-            if edit.kind in (EditKind.NAME, EditKind.LIMIT) and wanted.get(edit.begin) == self._kind_of(edit.new, names)
+            if edit.kind in (EditKind.NAME, EditKind.LIMIT)
+            if edit.begin in wanted and wanted[edit.begin] == self._types.kind_of(edit.new, names)
         )
-
-    def _kind_of(self, text: str, names: LineScope) -> str:
-        """The type of a variable or constant as it is written; empty where it is neither."""
-        return names.type_of(tuple(text.split("."))) or self._kinds.get(text, "")
 
     def _dropped(self, span: Span) -> SmallEdit:
         return self._edit(EditKind.DROPPED_BRANCH, span, _blank(span.text))
@@ -313,6 +306,7 @@ class _Reader:
         for kind, found in (
             (EditKind.VALUE, other_values(node, names)),
             (EditKind.NAME, other_names(node, names)),
+            (EditKind.NAME, self._types.others(node, names)),
             (EditKind.POINT, other_points(node, names)),
             (EditKind.TOKEN, other_tokens(node, names)),
         ):

@@ -46,6 +46,7 @@ def said_of(added: str) -> str:
 
 def _values(label: str, kind: str, names: LineScope) -> Iterator[str]:
     """What a parameter of a token may be: a variable of the rule, a parameter of another token, a value of an enum."""
-    yield from (one for one in names.alike(kind) if one not in names.constants and not one.startswith(f"{label}."))
+    known = [one for one in names.alike(kind) if names.type_of(tuple(one.split("."))) == kind]
+    yield from (one for one in known if not one.startswith(f"{label}."))
     yield from (f"{kind}.{value}" for value in names.enums.get(kind, ()))
     yield from _TRUTHS if kind == "bool" else ()

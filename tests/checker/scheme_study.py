@@ -1,7 +1,7 @@
 """Measure explanations on faults drawn before any was flown: `python -m tests.checker.scheme_study ward lab`.
 
-Each model of `unseen` that has a `faults.toml` was written with its faults for this: three were looked at while rules
-were made (ward, theatre, orchard), three were only measured (brewery, apron, lab).
+Each model of `unseen` that has a `faults.toml` was written with its faults for this: six were looked at while rules
+were made (ward, theatre, orchard; later brewery, apron, lab), three are only measured (canal, bakery, icecore).
 """
 
 import sys

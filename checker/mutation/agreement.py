@@ -1,0 +1,70 @@
+"""Both sides of `==` in; out: what else may be named where they are not of one type, as the other side's type asks.
+
+`late == seats` holds a truth value to a number, and `ferment.end == wort` a moment to litres: no comparison of the two
+can be meant. What a rule computes for itself may be a span of time; what a token's parameter measures hardly is.
+"""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from checker.mutation.scope import LineScope
+from nddl_lang.syntax.nodes import BinaryExpr, PathExpr
+from nddl_lang.text.source import Span
+
+_NUMBERS = ("int", "float")
+_MOMENTS, _SPAN = ("start", "end"), "duration"
+_MOMENT = "moment"
+
+
+class Agreement:
+    """The types of what may be named; `constants` are the global variables of the model with theirs."""
+
+    def __init__(self, constants: Mapping[str, str]) -> None:
+        self._constants = constants
+
+    def kind_of(self, text: str, names: LineScope) -> str:
+        """The type of a variable, constant or time as it is written; empty where it is none of these."""
+        label, _, last = text.rpartition(".")
+        if label in ("", *names.tokens) and not names.type_of(tuple(text.split("."))):
+            if last in _MOMENTS:
+                return _MOMENT
+            if last == _SPAN:
+                return _SPAN
+        return names.type_of(tuple(text.split("."))) or self._constants.get(text, "")
+
+    def wanted(self, node: Any, names: LineScope) -> Iterator[tuple[Span, str]]:
+        """Each side of `==` with the type that the other side asks of it, where the two disagree."""
+        if not (isinstance(node, BinaryExpr) and node.op == "=="):
+            return
+        left, right = (self.kind_of(side.span.text, names) for side in (node.left, node.right))
+        if left and right and left != right:
+            yield node.left.span, right
+            yield node.right.span, left
+
+    def others(self, node: Any, names: LineScope) -> Iterator[tuple[Span, str]]:
+        """What may be named on one side of `==` in place of what cannot be compared with the other."""
+        if not (isinstance(node, BinaryExpr) and isinstance(node.left, PathExpr) and isinstance(node.right, PathExpr)):
+            return
+        sides = {span: self.kind_of(span.text, names) for span in (node.left.span, node.right.span)}
+        for span, kind in self.wanted(node, names):
+            other = next(one for one in sides if one is not span)
+            if _is_apart(other.text, kind, span.text, sides[span]):
+                yield from ((span, name) for name in self._named(kind, names) if name != other.text)
+
+    def _named(self, kind: str, names: LineScope) -> Iterator[str]:
+        if kind in (_MOMENT, _SPAN):
+            words = _MOMENTS if kind == _MOMENT else (_SPAN,)
+            labels = ("", *(label for label, shape in names.tokens.items() if not shape.is_event))
+            yield from (f"{label}.{word}" if label else word for word in words for label in labels)
+        else:
+            yield from (name for name in names.alike(kind) if names.type_of(tuple(name.split("."))) == kind)
+
+
+def _is_apart(one: str, kind: str, other: str, other_kind: str) -> bool:
+    """Whether two names, each with its type, can hardly be compared."""
+    kinds = {kind, other_kind}
+    if kinds == set(_NUMBERS) or kinds == {_SPAN, "int"}:
+        return False
+    if kinds == {_SPAN, "float"}:  # what a rule computes may be a span
+        return "." in (one if kind == "float" else other)
+    return kinds not in ({_MOMENT, "int"}, {_MOMENT, _SPAN})  # which time of a token is meant is asked elsewhere
