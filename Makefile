@@ -13,6 +13,7 @@
 #   make sampling-study  BATCHES (10000) simulated batches per sampler: how often each interval covers the true rate
 #   make alarm-study  FLIGHTS (11000) right missions and plans of every kind, judged: the judge objects to none
 #   make judge-study  FAULTS (1000) faults in the source of the engine, flown, and put to the judge and to an oracle
+#   make conflict-study  FAILURES (1000) failing missions of mutants of all models: z3 confirms each conflict, and needs each part
 #   make controllability-proof  NETWORKS (10000) small networks beside the game against the vehicle, played to its end
 #   make study        CELL (200) missions of each cell of the founding paper's study, what they show, adaptive sampling of B2,
 #                     and the three mistakes found at sea in one batch; hours, kept in build/study.sqlite and gone on with
@@ -48,7 +49,7 @@ TICKING := $(BIN)/python build_backend/ticking.py
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study judge-study controllability-proof study truths kills variants mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study judge-study conflict-study controllability-proof study truths kills variants mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -145,6 +146,11 @@ FAULTS := 1000
 
 judge-study: setup
 	NDDLC_INTERPRETED=1 $(BIN)/python -m tests.checker.judge.judge_study $(FAULTS)
+
+FAILURES := 1000
+
+conflict-study: build
+	$(BIN)/python -m tests.checker.conflict_study $(FAILURES)
 
 NETWORKS := 10000
 

@@ -19,12 +19,14 @@ _RESOURCES = frozenset({"Reservoir", "Reusable", "CBReusable", "Unary"})
 class _ResourceUse:
     """Something that changes a level: `amount` is added at `start` and, if it is given back, taken away at `end`.
 
-    Where its time was left open it begins at `earliest` or later, and at `start` at the latest.
+    Where its times were left open it begins at `earliest` or later, and at `start` at the latest; it ends at `end` or
+    later, and at `latest` at the latest. It is there for certain from `start` to `end`.
     """
 
     earliest: float
     start: float
-    end: int | None
+    end: float | None
+    latest: float
     amount: float
     tok: Tok | None
     span: Span | None
@@ -103,14 +105,15 @@ def _uses_of(bench: Bench, resource: str) -> Iterator[_ResourceUse]:
 def _use(
     bench: Bench, kind: str, quantity: Value, start: Value, end: Value, tok: Tok | None, span: Span | None
 ) -> Iterator[_ResourceUse]:
-    earliest, latest = start if isinstance(start, ValueRange) else (_number(start), _number(start))
+    earliest, at = start if isinstance(start, ValueRange) else (_number(start), _number(start))
     if earliest > bench.last_tick:
         return
     amount = nan if isinstance(quantity, (tuple, str)) else float(quantity)
     if kind in ("produce", "consume"):
-        yield _ResourceUse(earliest, latest, None, amount if kind == "produce" else -amount, tok, span)
+        yield _ResourceUse(earliest, at, None, inf, amount if kind == "produce" else -amount, tok, span)
     else:
-        yield _ResourceUse(earliest, latest, end if isinstance(end, int) else bench.last_tick + 1, -amount, tok, span)
+        first, last = end if isinstance(end, ValueRange) else (_number(end), _number(end))
+        yield _ResourceUse(earliest, at, first, last, -amount, tok, span)
 
 
 def _number(value: Value) -> float:
@@ -119,7 +122,7 @@ def _number(value: Value) -> float:
 
 def _judge_level(bench: Bench, resource: str, limits: _ResourceLimits, uses: list[_ResourceUse]) -> None:
     """Judge the level at each instant at which it changes, and the flows; open times may be any of theirs."""
-    if any(isnan(use.amount) or isnan(use.start) for use in uses):
+    if any(isnan(use.amount) or isnan(use.start) or isnan(use.latest) for use in uses):
         bench.skip("a resource with a use whose quantity or time was never fixed")
         return
     drawn: dict[float, float] = {}
@@ -132,7 +135,7 @@ def _judge_level(bench: Bench, resource: str, limits: _ResourceLimits, uses: lis
     first = () if levels and levels[0][0] <= 0 else ((0, limits.initial),)
     bench.profiles.append(ResourceProfile(bench.reactor, resource, limits.least, limits.most, (*first, *levels)))
     lowest = highest = levels
-    if any(use.earliest != use.start for use in uses):
+    if any(use.earliest != use.start or use.end not in (None, use.latest) for use in uses):
         lowest, highest = (_levels(limits.initial, _changes(uses, sign), bench.last_tick) for sign in (-1, 1))
     bench.judged += len(levels)
     too_low = next(((tick, level) for tick, level in highest if level < limits.least - TOLERANCE), None)
@@ -154,13 +157,17 @@ def _judge_level(bench: Bench, resource: str, limits: _ResourceLimits, uses: lis
 
 
 def _changes(uses: list[_ResourceUse], sign: int) -> dict[float, float]:
-    """What is added at each time; what has the `sign` comes as early as it may, all else as late as it may."""
+    """What is added at each time; what has the `sign` is there whenever it may be, all else only when it must be."""
     changes: dict[float, float] = {}
     for use in uses:
-        time = use.earliest if use.amount * sign > 0 else use.start
+        is_wide = use.amount * sign > 0
+        time = use.earliest if is_wide else use.start
+        end = use.latest if is_wide else use.end
+        if end is not None and end <= time:
+            continue
         changes[time] = changes.get(time, 0.0) + use.amount
-        if use.end is not None:
-            changes[use.end] = changes.get(use.end, 0.0) - use.amount
+        if end is not None:
+            changes[end] = changes.get(end, 0.0) - use.amount
     return changes
 
 

@@ -146,9 +146,11 @@ def _levels(oracle: PlainOracle) -> Iterator[str]:
                 break
             kind = token.code.name.rpartition(".")[2]
             by = (amount[0] + amount[1]) / 2 * (1 if kind == "produce" else -1)
+            if kind == "uses" and token.end[0] <= token.start[0]:
+                continue
             changes[token.start[0]] = changes.get(token.start[0], 0.0) + by
-            if kind == "uses":
-                changes[token.end[1]] = changes.get(token.end[1], 0.0) - by
+            if kind == "uses":  # an end that was left open may have come as early as it could
+                changes[token.end[0]] = changes.get(token.end[0], 0.0) - by
         if not is_known:
             continue
         level = first[1]  # type: ignore[index]

@@ -5,7 +5,7 @@ import pytest
 from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
 from runtime.executive.configuration import GoalConfiguration
-from runtime.executive.record import MissionRecord
+from runtime.executive.record import MissionRecord, ValueRange
 from tests.executive.flying import flown, planner
 
 MODEL = """
@@ -29,6 +29,32 @@ def test_a_consumption_at_an_open_time_counts_when_it_must_be_over(gain: float, 
         one._replace(arguments=(gain,)) if one.predicate == "Reservoir.produce" else one for one in reactor.tokens
     )
     assert any(not isinstance(one.start, int) for one in tokens if one.predicate == "Reservoir.consume")
+    record = MissionRecord((reactor._replace(tokens=tokens),))
+    report = judge_mission(mission.agent, mission.programs, mission.outcome, record)
+    assert sum(one.kind == "level" for one in report.disagreements) == found
+
+
+HOSE = """
+Reusable hose = new Reusable(2.0, 0.0);
+class Work extends AgentTimeline {
+  predicate Idle { } predicate Water { } predicate Wash { } Work(Mode m) { super(m, "Idle"); }
+}
+Work::Water { duration == 9; contains(hose.uses u); u.quantity == 2.0; u.start == start + 1; }
+Work::Wash { duration == 4; equals(hose.uses u); u.quantity == 1.0; }
+Work work = new Work(Internal); close();
+"""
+BOTH = (GoalConfiguration("work", "Water", start=(3, 3)), GoalConfiguration("work", "Wash", start=(20, 20)))
+
+
+@pytest.mark.parametrize(("first", "found"), [(5, 0), (20, 0), (21, 1)])
+def test_a_use_whose_end_was_left_open_counts_until_it_may_be_over(first: int, found: int) -> None:
+    mission = flown(planner("planner", HOSE, "work"), until=30, goals=BOTH)
+    assert mission.report.holds, [disagreement_text(one) for one in mission.report.disagreements]
+    (reactor,) = mission.record.reactors
+    uses = [one for one in reactor.tokens if one.predicate == "Reusable.uses"]
+    assert [isinstance(one.end, int) for one in uses] == [False, True]
+    late = uses[0]._replace(end=ValueRange(first, 40), duration=ValueRange(1, 40))
+    tokens = tuple(late if one is uses[0] else one for one in reactor.tokens)
     record = MissionRecord((reactor._replace(tokens=tokens),))
     report = judge_mission(mission.agent, mission.programs, mission.outcome, record)
     assert sum(one.kind == "level" for one in report.disagreements) == found
