@@ -216,6 +216,7 @@ def _read_reactors(
     reactors: list[ReactorConfiguration | CodeConfiguration] = []
     owners: dict[str, tuple[str, Span]] = {}
     names: dict[str, Span] = {}
+    twins: set[str] = set()  # who uses one of these does not say whom
     for table in tables:
         is_code = table.has("code")
         reactor: ReactorConfiguration | CodeConfiguration = _read_code(table) if is_code else _read_model(table)
@@ -239,6 +240,7 @@ def _read_reactors(
             span = table.text.value_span((*table.path, "internal", index))
             if timeline in owners:
                 _complain_of_twin(table, span, "an owner of the timeline", timeline, owners[timeline][1])
+                twins.add(timeline)
             owners.setdefault(timeline, (reactor.name, span))
     are_told = _are_owners_told(tables)
     for table, reactor in zip(tables, reactors, strict=True):
@@ -246,7 +248,7 @@ def _read_reactors(
             if timeline not in owners and are_told:
                 span = table.text.value_span((*table.path, "external", index))
                 table.text.diagnostics.append(NO_OWNER.at(span, timeline=timeline, help=_suggest(timeline, [*owners])))
-    cycle = _find_cycle(reactors, {timeline: name for timeline, (name, _) in owners.items()})
+    cycle = _find_cycle(reactors, {timeline: name for timeline, (name, _) in owners.items() if timeline not in twins})
     if cycle:
         span = tables[0].text.key_span(tables[0].path)
         tables[0].text.diagnostics.append(CYCLE.at(span, cycle=" → ".join(cycle)))

@@ -22,6 +22,7 @@ from runtime.executive.outcome import SourcePlace
 
 _MOST_TICKS = 10**12  # far from where sums of times overflow
 _LARGEST = sys.float_info.max
+LEAST = math.ulp(0.0)  # of the numbers above 0
 _MOST_SHOWN = 60  # characters of a value in a message
 TomlTable = dict[str, object]
 
@@ -150,13 +151,15 @@ class Table:
     def number(
         self, key: str, default: float, lower: float, upper: float = math.inf, *, is_finite: bool = False
     ) -> float:
-        """A number from `lower` to `upper`."""
+        """A number from `lower` to `upper`; above 0 where `lower` is `LEAST`."""
         value = self._take(key)
         if isinstance(value, int | float) and not isinstance(value, bool):
             is_held = -_LARGEST <= value <= _LARGEST
             if lower <= value <= upper and (is_held or not is_finite):
                 return float(value) if is_held else upper
             wanted = f"from {lower:g} to {upper:g}" if upper < math.inf else f"at least {lower:g}"
+            if lower == LEAST:
+                wanted = "greater than 0"
             if not is_held and is_finite:
                 wanted = "finite"
             is_percent = (lower, upper) == (0.0, 1.0) and 1.0 < value <= 100.0

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import cast
 
 from checker.codes import ILL_DISTRIBUTION, TWICE
-from checker.mission_table import Table
+from checker.mission_table import LEAST, Table
 from nddl_lang.text.diagnostic import Note
 from runtime.executive.configuration import Mode, ParameterConfiguration
 from runtime.executive.distributions import DISTRIBUTIONS
@@ -45,7 +45,7 @@ def _read_parameter(name: str, table: Table) -> tuple[ParameterConfiguration, bo
     weights = table.numbers("weights")
     value = table.number("value", 0.0, -math.inf, is_finite=True)
     mean = table.number("mean", 0.0, -math.inf, is_finite=True) if table.has("mean") else None
-    deviation = table.number("sigma", 1.0, 1e-300, is_finite=True) if table.has("sigma") else None
+    deviation = table.number("sigma", 1.0, LEAST, is_finite=True) if table.has("sigma") else None
     expression = table.string("expression", "")
     is_whole = table.choice("kind", ("float", "int"), "float") == "int"
     mode = cast("Mode", table.choice("mode", ("inter", "intra"), "inter"))
@@ -152,28 +152,37 @@ def _read_joint(name: str, table: Table, known: list[ParameterConfiguration]) ->
 def _with_rhythm(parameters: list[ParameterConfiguration], tables: Table) -> tuple[ParameterConfiguration, ...]:
     """Dependent parameters change when those do that they read; they must not read each other in a cycle."""
     found = {one.name: one for one in parameters}
-
-    def reads(name: str, trail: tuple[str, ...]) -> set[str]:
-        """The parameters with a distribution that `name` reads, through others too."""
-        one = found.get(name)
-        if one is None or not one.expression:
-            return {name}
-        if name in trail:
-            reason = f"parameters read each other in a cycle: {' → '.join((*trail[trail.index(name) :], name))}"
-            tables.text.diagnostics.append(
-                ILL_DISTRIBUTION.at(tables.text.key_span((*tables.path, name)), reason=reason)
-            )
-            return set()
-        try:
-            names = parse_expression(one.expression).names
-        except ExpressionError:
-            return set()  # told already
-        return {leaf for other in names for leaf in reads(other, (*trail, name))}
-
-    for name, one in list(found.items()):
-        if one.expression:
-            sources = [found[leaf] for leaf in reads(name, ()) if leaf in found]
-            changing = [source.update for source in sources if source.mode == "intra"]
-            if changing:
-                found[name] = replace(one, mode="intra", update=math.gcd(*changing))
+    read = {name: _read_by(one) for name, one in found.items() if one.expression}
+    sources: dict[str, set[str]] = {}  # the parameters with a distribution that each reads, through others too
+    for name in read:
+        trail = {name: iter(read[name])}  # the way from `name` to where the walk stands, without recursion
+        while trail:
+            last = next(reversed(trail))
+            following = next(trail[last], None)
+            if following is None:
+                del trail[last]
+                sources[last] = set()
+                for each in read[last]:
+                    sources[last] |= sources.get(each, set()) if each in read else {each}
+            elif following in trail:
+                _tell_cycle(tables, [*trail][[*trail].index(following) :])
+            elif following in read and following not in sources:
+                trail[following] = iter(read[following])
+    for name, leaves in sources.items():
+        changing = [found[leaf].update for leaf in leaves if leaf in found and found[leaf].mode == "intra"]
+        if changing:
+            found[name] = replace(found[name], mode="intra", update=math.gcd(*changing))
     return tuple(found[one.name] for one in parameters)
+
+
+def _read_by(parameter: ParameterConfiguration) -> tuple[str, ...]:
+    """The names that an expression reads."""
+    try:
+        return tuple(sorted(parse_expression(parameter.expression).names))
+    except ExpressionError:
+        return ()  # told already
+
+
+def _tell_cycle(tables: Table, names: list[str]) -> None:
+    reason = f"parameters read each other in a cycle: {' → '.join((*names, names[0]))}"
+    tables.text.diagnostics.append(ILL_DISTRIBUTION.at(tables.text.key_span((*tables.path, names[0])), reason=reason))

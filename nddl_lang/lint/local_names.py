@@ -36,6 +36,7 @@ from nddl_lang.syntax.nodes import (
     VariableDecl,
 )
 from nddl_lang.text.diagnostic import Code, Diagnostic, Note
+from nddl_lang.text.source import Span
 
 
 def used_variables(part: Part) -> set[Variable]:
@@ -59,7 +60,9 @@ def lint_unused_locals(part: Part) -> Iterator[Finding]:
         for node in part.all(VariableDecl):
             for index, declarator in enumerate(node.declarators):
                 variable = part.tables.locals.get(declarator)
-                if variable is not None and variable not in used and not isinstance(declarator.initialiser, NewExpr):
+                if variable is None or variable in used or isinstance(declarator.initialiser, NewExpr):
+                    continue
+                if declarator.name.span not in _hidden_places(part):
                     yield _unused_local(node, index, declarator, variable)
     elif constructors := part.all(ConstructorDecl):
         used = used_variables(part)
@@ -86,8 +89,16 @@ def lint_unused_labels(part: Part) -> Iterator[Finding]:
     mentioned = set(mentioned_labels(part))
     for instance in part.all(Instance):
         label = part.label_of(instance)
-        if label is not None and instance.name is not None and label not in mentioned:
+        if label is None or instance.name is None or label in mentioned:
+            continue
+        if instance.name.span not in _hidden_places(part):
             yield UNUSED_LABEL.at(instance.name.span, name=label.name)
+
+
+def _hidden_places(part: Part) -> set[Span]:
+    """Where names stand that another one hides: who is told that need not be told that the first is unused."""
+    told = (each for each in lint_hidden_names(part) if isinstance(each, Diagnostic))
+    return {note.span for finding in told for note in finding.notes if note.span is not None}
 
 
 def lint_hidden_names(part: Part) -> Iterator[Finding]:

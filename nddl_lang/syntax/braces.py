@@ -5,13 +5,14 @@ stand at the top level. All offsets are absolute, as the piece is not finished y
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from nddl_lang.syntax.brackets import Brackets
 from nddl_lang.syntax.codes import MISSING, STRAY_BRACE, SUPERFLUOUS, UNCLOSED_BRACE
 from nddl_lang.syntax.piece import Piece
 from nddl_lang.text.diagnostic import Edit, Fix, Note
 
+_STATEMENT_BEGINS = frozenset(("IDENT", "BASETYPE", "close", "new"))
 _TYPES = frozenset(("BASETYPE", "filter"))
 _MEMBERS = _TYPES | {"predicate", "action"}
 _LINE = re.compile(r"\n([ \t]*)(//[^\n]*|[^\s])")
@@ -19,6 +20,8 @@ _LINE = re.compile(r"\n([ \t]*)(//[^\n]*|[^\s])")
 _NEXT_LINE = re.compile(r"(?:[ \t\r\f]*(?://[^\n]*)?\n)*([ \t]*)(\}|(?:predicate|action)(?![A-Za-z0-9_$]))?")
 _STRAYS = re.compile(r"((?:[ \t\r\n\f]*\})*)[ \t\r\n\f]*")
 _LONGEST = len("predicate") + 1
+# What is given back is read again: without a limit, by each of many pieces inside of each other.
+_MOST_GIVEN_BACK = 2000
 
 
 def open_head(piece: Piece, brackets: Brackets, base: int, head: int, kind: str) -> None:
@@ -141,3 +144,36 @@ def lacks_brace(piece: Piece, text: str, finish: int, indent: int) -> bool:
         return line[2] == "}" and len(line[1]) == indent and between.count("{") == between.count("}")
     piece.reach = max(piece.reach, len(text) + 1)
     return False
+
+
+def first_outside(piece: Piece, indent_of: Callable[[int], int]) -> int:
+    """The first lexeme that stands outside of a rule or class which is never closed; -1 if none does for certain.
+
+    It begins a line and a statement, no deeper than the piece, where the first line of the block stands deeper.
+    """
+    kinds, starts = piece.kinds, piece.starts
+    if (
+        piece.is_cut_short
+        or piece.is_too_deep
+        or "{" not in kinds
+        or not (kinds[1:3] == ["::", "IDENT"] or kinds[0] == "class")
+    ):
+        return -1
+    indent, body = indent_of(starts[0]), kinds.index("{") + 1
+    if indent < 0 or body >= len(kinds) or indent_of(starts[body]) <= indent:
+        return -1
+    for at in range(body, len(kinds)):
+        if kinds[at] in _STATEMENT_BEGINS and 0 <= indent_of(starts[at]) <= indent:
+            is_mended = any(index >= at for index, _ in piece.mends)
+            return -1 if is_mended or len(kinds) - at > _MOST_GIVEN_BACK else at
+    return -1
+
+
+def give_back(piece: Piece, at: int, base: int) -> int:
+    """Leave the lexemes from `at` on to the next piece; where this one ends."""
+    for column in (piece.kinds, piece.texts, piece.starts, piece.ends):
+        del column[at:]
+    end = piece.ends[-1]
+    piece.diagnostics = [each for each in piece.diagnostics if each.span.start < end - base]
+    piece.docs = {start: doc for start, doc in piece.docs.items() if start < end - base}
+    return end

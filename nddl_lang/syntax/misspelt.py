@@ -9,7 +9,21 @@ from nddl_lang.text.nearest import nearest
 _WORDS = tuple(word for word in KINDS if word not in FORMER)
 # A name as short as these is no misspelt word unless it has the same letters.
 _SHORT = 3
+_TIMES = {"starts": "start", "ends": "end"}
+_COMPARES = frozenset(("==", "!=", "<", "<=", ">", ">="))
 _REMEMBERED = 256  # answers: one mistake may stand in thousands of lines
+
+
+def meant_time(kinds: list[str], texts: list[str], first: int, index: int) -> tuple[int, str] | None:
+    """A lexeme before which, or at which, a statement stops making sense, and the time that its relation was meant for.
+
+    `q.starts >= 4` and `ends <= 9`: behind a dot, and before a comparison, no relation can stand.
+    """
+    for at in (index, index - 1):
+        time = _TIMES.get(texts[at]) if first <= at < len(texts) else None
+        if time is not None and kinds[at] == "RELATION" and (kinds[at - 1 : at] == ["."] or kinds[at + 1] in _COMPARES):
+            return at, time
+    return None
 
 
 def meant_word(

@@ -29,12 +29,12 @@ from nddl_lang.syntax.expectation import accepts, describe_expected, expected_ki
 from nddl_lang.syntax.former import put_in_parentheses
 from nddl_lang.syntax.idioms import Idiom, find_idiom
 from nddl_lang.syntax.lexemes import excerpt
-from nddl_lang.syntax.misspelt import all_relations, meant_word
+from nddl_lang.syntax.misspelt import all_relations, meant_time, meant_word
 from nddl_lang.syntax.nodes import BrokenStatement
 from nddl_lang.syntax.placement import break_statement
 from nddl_lang.syntax.reserved_names import read_as_name
 from nddl_lang.syntax.rewrites import close_block, link_tokens, rewrite
-from nddl_lang.syntax.skipping import end_of_statement, misaligned_brace
+from nddl_lang.syntax.skipping import end_of_statement, unclosed_block
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS
 from nddl_lang.syntax.words import KINDS, RESERVED
 from nddl_lang.text.diagnostic import Code, Edit, Fix, Note
@@ -218,7 +218,7 @@ class Recovery:
     def _reread_word(self, states: list[int], values: list[Any], first: int, index: int) -> bool:
         """Read a name in the statement that begins at `first` as the word of the language that it was meant to be."""
         b = self._b
-        meant = meant_word(states, self._kinds, b.texts, first, index)
+        meant = meant_time(self._kinds, b.texts, first, index) or meant_word(states, self._kinds, b.texts, first, index)
         if meant is None:
             return False
         at, word = meant
@@ -232,8 +232,9 @@ class Recovery:
             word = "any"
         else:
             fix = Fix(f"write `{word}`", (Edit(b.at(at), word),), safe=False)
-            self._report(MISSPELT, at, text=b.texts[at], help=f"did you mean `{word}`?", fixes=(fix,))
-        self._kinds[at], b.texts[at] = KINDS[word], word
+            code = MISSPELT if word in KINDS else RESERVED_WORD
+            self._report(code, at, text=b.texts[at], help=f"did you mean `{word}`?", fixes=(fix,))
+        self._kinds[at], b.texts[at] = KINDS.get(word, "IDENT"), word
         return True
 
     def _leave_modifier_out(self, first: int, index: int) -> bool:
@@ -328,10 +329,9 @@ class Recovery:
     def _report_unclosed(self, opener: int, index: int) -> None:
         if not self._said_unclosed:
             self._said_unclosed = True
-            better = misaligned_brace(self._kinds, self._b)
-            # Where a block inside is not closed, nobody knows where it should end.
-            fixes = (close_block(self._b, opener, index),) if better is None else ()
-            self._report(UNCLOSED_BRACE, opener if better is None else better, text="{", fixes=fixes)
+            opener, end = unclosed_block(self._b, opener, index)
+            fixes = (close_block(self._b, opener, end),) if end is not None else ()
+            self._report(UNCLOSED_BRACE, opener, text="{", fixes=fixes)
 
     def _report_expected(self, states: list[int], first: int, index: int, idiom: Idiom | None) -> None:
         if self._is_quiet:

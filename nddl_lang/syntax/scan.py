@@ -9,6 +9,8 @@ from itertools import islice
 from nddl_lang.syntax.braces import (
     close_body,
     end_of_strays,
+    first_outside,
+    give_back,
     is_surplus,
     lacks_brace,
     leave_out,
@@ -141,6 +143,8 @@ class Scanner:
                     break
             else:
                 at = finish
+        if at < 0 and self._end < 0:
+            self._give_back()
         self._finish()
         return piece
 
@@ -171,7 +175,16 @@ class Scanner:
         """End the piece before the lexeme at hand, which ends at `seen`; no kind, so it is not taken in."""
         self._end = self._piece.ends[-1]
         self._piece.reach = max(self._piece.reach, seen + 1)
+        self._give_back()
         return ""
+
+    def _give_back(self) -> None:
+        """End a piece whose block is never closed before what stands outside of it, to judge by the indentation."""
+        at = first_outside(self._piece, self._indent) if self._brackets.open else -1
+        if at >= 0:
+            if self._end < 0:
+                self._piece.reach = _BEYOND
+            self._end = give_back(self._piece, at, self._base)
 
     def _begins_statement(self, start: int) -> bool:
         """Whether `start` is the first thing in its line and stands no deeper than the piece began."""

@@ -45,7 +45,7 @@ def end_of_statement(
     return at
 
 
-def misaligned_brace(kinds: list[str], b: Builder) -> int | None:
+def _misaligned_brace(kinds: list[str], b: Builder) -> int | None:
     """The `{` that has the `}` of an outer block, to judge by how far both lines are indented."""
     source, offset = b.anchor.source, b.anchor.offset
     open_braces: list[tuple[int, int]] = []
@@ -60,3 +60,24 @@ def misaligned_brace(kinds: list[str], b: Builder) -> int | None:
             if column - 1 == len(line) - len(line.lstrip()) and column - 1 < indent:
                 return opener
     return None
+
+
+def _end_by_indentation(b: Builder, opener: int) -> int | None:
+    """The first lexeme behind the `{` at `opener` that begins a line which is no deeper than that of the `{`."""
+    source, offset = b.anchor.source, b.anchor.offset
+    line = source.line(source.locate(offset + b.starts[opener])[0])
+    deepest = len(line) - len(line.lstrip())
+    for index in range(opener + 1, len(b.starts)):
+        if "\n" in source.text[offset + b.ends[index - 1] : offset + b.starts[index]]:
+            if source.locate(offset + b.starts[index])[1] - 1 <= deepest:
+                return index
+    return None
+
+
+def unclosed_block(b: Builder, opener: int, index: int) -> tuple[int, int | None]:
+    """The `{` that is never closed, and the lexeme before which its block should end.
+
+    Where a block inside has taken the `}` of the one at `opener`, which would end at `index`, indentation tells both.
+    """
+    better = _misaligned_brace(b.kinds, b)
+    return (opener, index) if better is None else (better, _end_by_indentation(b, better))

@@ -134,6 +134,9 @@ update = 4
     ("text", "line", "message"),
     [
         ('[parameters.A]\nexpression = "A + 1"\n', 15, "parameters read each other in a cycle: A → A"),
+        ('[parameters.A]\nexpression = "B"\n[parameters.B]\nexpression = "A"\n', 15, "in a cycle: A → B → A"),
+        ("[parameters.A]\nmean = 0\nsigma = -0.3\n", 17, "`sigma` must be greater than 0, not -0.3"),
+        ("[parameters.A]\nmean = 0\nsigma = 0\n", 17, "`sigma` must be greater than 0, not 0"),
         ('[parameters.A]\nexpression = "open(B)"\n', 15, "`expression`: there is no function `open`"),
         ('[parameters.A]\nexpression = "3 + 4"\n', 15, "the expression reads no other parameter: write `value`"),
         ('[parameters.A]\ndistribution = "normal"\nmean = 3\n', 15, "without a `range` needs both `mean` and `sigma`"),
