@@ -2,45 +2,30 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 
 from lsprotocol.types import CompletionItem, CompletionItemKind, InsertTextFormat, MarkupContent, MarkupKind
 
 from lsp.completion_context import Situation, situation_at
+from lsp.completion_place import Place, place_around
 from lsp.describe import Describer, parameter_text
+from lsp.expected_type import expected_types, rank
 from lsp.meaning import WORDS, piece_at
 from lsp.rows import constraint_text, function_text, relation_head, relation_tail
 from nddl_lang.analysis import Analysis
 from nddl_lang.semantics.functions import METHODS, Receiver
-from nddl_lang.semantics.natives import builtin_names, builtin_type
+from nddl_lang.semantics.natives import builtin_names
 from nddl_lang.semantics.relations import RELATIONS
-from nddl_lang.semantics.schema import Kind, Label, Predicate, Schema, Type, Variable
+from nddl_lang.semantics.schema import Kind, Predicate, Schema, Variable
 from nddl_lang.semantics.types import BASIC_TYPES
 from nddl_lang.syntax.parser import Parse
+from nddl_lang.syntax.piece import Piece
 from nddl_lang.text.source import Span
 
 _BEFORE = re.compile(r"(?P<path>(?:[A-Za-z_$][\w$]*\s*(?:\.|::)\s*)*)[\w$]*\Z")
-_RULE = re.compile(r"([A-Za-z_$][\w$]*)\s*::\s*([A-Za-z_$][\w$]*)\s*\{")
-_CLASS = re.compile(r"\bclass\s+([A-Za-z_$][\w$]*)")
 # Nobody names more in front of a dot.
 _LONGEST_PATH = 400
 
 _Items = Iterator[CompletionItem]
-
-
-@dataclass(frozen=True, slots=True)
-class _Place:
-    """What is known around the cursor: the names of the statement, and the predicate of the rule."""
-
-    analysis: Analysis
-    variables: dict[str, Variable]
-    labels: dict[str, Label]
-    predicate: Predicate | None
-    owner: str | None  # the class that is being declared
-
-    @property
-    def schema(self) -> Schema:
-        return self.analysis.schema
 
 
 def completions(analysis: Analysis, parse: Parse, offset: int, *, with_snippets: bool = False) -> list[CompletionItem]:
@@ -55,18 +40,29 @@ def completions(analysis: Analysis, parse: Parse, offset: int, *, with_snippets:
         return []
     before = _BEFORE.search(text, max(0, offset - _LONGEST_PATH), offset)
     path = re.findall(r"[\w$]+|::|\.", before["path"]) if before is not None else []
-    place = _place(analysis, parse, offset)
+    place = place_around(analysis, piece, offset)
+    begun = before.start() if before is not None else offset
+    situation = situation_at(piece, begun)
     if not path:
-        begun = before.start() if before is not None else offset
-        items = _names(place, situation_at(piece, begun), with_snippets)
+        items = _names(place, _known(place, piece, begun, situation), with_snippets)
     elif path[-1] == "::":
         items = _predicates(place.schema, path[-2])
     else:
-        items = _members(place, [part for part in path if part not in (".", "::")])
+        items = _members(place, [part for part in path if part not in (".", "::")], situation)
     found: dict[str, CompletionItem] = {}
     for item in items:
         found.setdefault(item.label, item)
-    return [_sorted(item, number) for number, item in enumerate(found.values())]
+    expected = expected_types(place, piece, begun) if situation is Situation.VALUE else frozenset[str]()
+    ordered = sorted(found.values(), key=lambda item: rank(place, expected, item)) if not path else found.values()
+    return [_sorted(item, number) for number, item in enumerate(ordered)]
+
+
+def _known(place: Place, piece: Piece | None, begun: int, situation: Situation) -> Situation:
+    """The situation, now that it is known what the word before names: only tokens have relations."""
+    if situation is not Situation.RELATION or piece is None:
+        return situation
+    word = piece.text[: begun - piece.anchor.offset].split()[-1]
+    return situation if place.token(word) is not None else Situation.NOTHING
 
 
 def _sorted(item: CompletionItem, number: int) -> CompletionItem:
@@ -74,108 +70,97 @@ def _sorted(item: CompletionItem, number: int) -> CompletionItem:
     return item
 
 
-def _place(analysis: Analysis, parse: Parse, offset: int) -> _Place:
-    piece = piece_at(parse, offset)
-    variables: dict[str, Variable] = {}
-    labels: dict[str, Label] = {}
-    predicate = None
-    if piece is not None:
-        for name, declared in analysis.tables.declared.items():
-            if name.span.anchor is piece.anchor:
-                if isinstance(declared, Variable):
-                    variables[declared.name] = declared
-                elif isinstance(declared, Label):
-                    labels[declared.name] = declared
-        if (rule := _RULE.search(piece.text)) is not None:
-            predicate = analysis.schema.find_predicate(rule[1], rule[2])
-    owner = None
-    if piece is not None and (declared_class := _CLASS.search(piece.text)) is not None:
-        owner = declared_class[1]
-    return _Place(analysis, variables, labels, predicate, owner)
-
-
-def _names(place: _Place, situation: Situation, with_snippets: bool) -> _Items:
+def _names(place: Place, situation: Situation, with_snippets: bool) -> _Items:
     if with_snippets:
         yield from _snippets(place.schema, situation, {rule.predicate for rule in place.schema.rules})
     for group in _GROUPS[situation]:
         yield from group(place)
 
 
-def _tokens(place: _Place) -> _Items:
+def _tokens(place: Place) -> _Items:
     for label in place.labels.values():
         yield _item(label.name, CompletionItemKind.Variable, label.predicate.full_name)
 
 
-def _variables(place: _Place) -> _Items:
+def _variables(place: Place) -> _Items:
     for variable in place.variables.values():
         yield _variable(variable)
     if place.predicate is not None:
         yield from _token_variables(place.predicate)
 
 
-def _own_predicates(place: _Place) -> _Items:
+def _own_predicates(place: Place) -> _Items:
     if place.predicate is not None:
         yield from _predicates(place.schema, place.predicate.class_name)
 
 
-def _globals(place: _Place) -> _Items:
-    for variable in place.schema.globals.values():
+def _globals(place: Place) -> _Items:
+    for variable in place.globals().values():
         yield _variable(variable)
 
 
-def _objects(place: _Place) -> _Items:
+def _objects(place: Place) -> _Items:
     """What may stand before the dot of `object.predicate`."""
-    yield _item("object", CompletionItemKind.Field, WORDS["object"])
-    for variable in (*place.variables.values(), *place.schema.globals.values()):
-        if variable.type.kind is Kind.OBJECT:
+    parameters = place.predicate.parameters if place.predicate is not None else ()
+    if place.predicate is not None:
+        yield _item("object", CompletionItemKind.Field, WORDS["object"])
+    for variable in (*place.variables.values(), *parameters, *place.globals().values()):
+        if place.leads_to_predicates(variable.type):
             yield _variable(variable)
+    for token in place.labels.values():
+        if any(place.leads_to_predicates(each.type) for each in token.predicate.parameters):
+            yield _item(token.name, CompletionItemKind.Variable, token.predicate.full_name)
 
 
-def _goals(place: _Place) -> _Items:
-    for label in place.schema.goals.values():
+def _goals(place: Place) -> _Items:
+    for label in place.goals().values():
         yield _item(label.name, CompletionItemKind.Variable, label.predicate.full_name)
 
 
-def _values(place: _Place) -> _Items:
+def _values(place: Place) -> _Items:
     for value in place.schema.enum_values.values():
         yield _item(value.value, CompletionItemKind.EnumMember, value.enum)
 
 
-def _classes(place: _Place) -> _Items:
+def _classes(place: Place) -> _Items:
     for owner in place.schema.classes.values():
         yield _item(owner.name, CompletionItemKind.Class, f"extends {owner.base}" if owner.base else None)
 
 
-def _types(place: _Place) -> _Items:
+def _classes_of_tokens(place: Place) -> _Items:
+    yield from (item for item in _classes(place) if place.has_predicates(item.label))
+
+
+def _types(place: Place) -> _Items:
     for name in (*place.schema.enums, *place.schema.typedefs, *BASIC_TYPES):
         yield _item(name, CompletionItemKind.TypeParameter, None)
 
 
-def _relations(place: _Place) -> _Items:
+def _relations(place: Place) -> _Items:
     del place
     for row in RELATIONS.values():
         yield _item(row.name, CompletionItemKind.Operator, row.meaning)
 
 
-def _constraints(place: _Place) -> _Items:
+def _constraints(place: Place) -> _Items:
     for row in place.analysis.callables.constraints.values():
         yield _item(row.name, CompletionItemKind.Function, f"({row.signature.text}) {row.meaning}")
 
 
-def _functions(place: _Place) -> _Items:
+def _functions(place: Place) -> _Items:
     for row in place.analysis.callables.functions.values():
         yield _item(row.name, CompletionItemKind.Function, f"({row.signature.text}) {row.meaning}")
 
 
-def _own_members(place: _Place) -> _Items:
+def _own_members(place: Place) -> _Items:
     """The members of the class in whose constructor or predicate one types."""
     owner = place.owner
     for name in place.schema.ancestry(owner) if owner is not None else ():
         yield from (_variable(member) for member in place.schema.classes[name].members.values())
 
 
-def _words(*words: str) -> Callable[[_Place], _Items]:
-    def offered(place: _Place) -> _Items:
+def _words(*words: str) -> Callable[[Place], _Items]:
+    def offered(place: Place) -> _Items:
         del place
         yield from (_item(word, CompletionItemKind.Keyword, None) for word in words)
 
@@ -185,7 +170,7 @@ def _words(*words: str) -> Callable[[_Place], _Items]:
 _VALUES = (_variables, _tokens, _values, _globals, _functions, _words("new", "true", "false", "inf", "inff"))
 _THINGS = (_tokens, _variables, _own_predicates, _globals)
 _STATEMENTS = (_classes, _types, _relations, _constraints, _functions)
-_GROUPS: dict[Situation, tuple[Callable[[_Place], _Items], ...]] = {
+_GROUPS: dict[Situation, tuple[Callable[[Place], _Items], ...]] = {
     Situation.TOP: (
         _words("class", "enum", "typedef", "#include", "goal", "fact", "rejectable", "new", "close", "enforce"),
         _types,
@@ -205,11 +190,12 @@ _GROUPS: dict[Situation, tuple[Callable[[_Place], _Items], ...]] = {
         _words("if", "else", "foreach", "enforce", "this", "filter"),
     ),
     Situation.BUILDING: (_words("super", "this"), _variables, _own_members, *_VALUES),
-    Situation.INSTANCE: (_own_predicates, _objects, _tokens, _goals, _classes, _words("condition", "effect")),
+    Situation.INSTANCE: (_own_predicates, _objects, _classes_of_tokens, _words("condition", "effect")),
     Situation.CLASS: (_classes, _types),
     Situation.NEW: (_classes,),
     Situation.VALUE: (*_VALUES, _own_members, _goals, _classes),
     Situation.RELATION: (_relations,),
+    Situation.TOKEN: (_tokens, _goals),
     Situation.NOTHING: (),
     Situation.ANYTHING: (*_THINGS, _goals, _values, *_STATEMENTS, _words(*WORDS)),
 }
@@ -249,48 +235,45 @@ def _snippet(label: str, text: str, detail: str | None = None) -> CompletionItem
     )
 
 
-def _members(place: _Place, path: list[str]) -> _Items:
-    """What may follow the dot after `path`."""
+def _members(place: Place, path: list[str], situation: Situation) -> _Items:
+    """What may follow the dot after `path`: the way to a predicate where a token is asked for, else to a variable."""
     schema, (head, *rest) = place.schema, path
-    label = place.labels.get(head) or schema.goals.get(head)
-    predicate = label.predicate if label is not None else place.predicate if head == "this" else None
-    type_: Type | None = None
-    if predicate is not None:
-        if not rest:
-            yield from _token_variables(predicate)
-            if label is not None:
-                yield from _methods(Receiver.TOKEN)
-            return
-        type_ = _type_in(predicate, rest.pop(0))
-    else:
-        if head in schema.classes and not rest:
+    is_asked = situation is Situation.INSTANCE
+    is_called = situation in (Situation.TOP, Situation.ANYTHING)  # elsewhere no method can be called
+    token = place.token(head)
+    if not rest and token is not None:
+        variables = list(_token_variables(token))
+        yield from (each for each in variables if not is_asked or _leads_on(place, [head, each.label]))
+        if head != "this" and is_called:
+            yield from _methods(Receiver.TOKEN)
+        return
+    if not rest and token is None and head not in place.variables:
+        if head in schema.classes:
             yield from _predicates(schema, head)
-            yield from _methods(Receiver.CLASS)
+            if is_called:
+                yield from _methods(Receiver.CLASS)
             return
-        if head in schema.enums and not rest:
+        if head in schema.enums:
             yield from (_item(value, CompletionItemKind.EnumMember, head) for value in schema.enums[head].values)
             return
-        variable = place.variables.get(head) or schema.globals.get(head)
-        if variable is not None:
-            type_ = variable.type
-        elif place.predicate is not None:
-            type_ = _type_in(place.predicate, head)
-    for part in rest:
-        member = schema.find_member(type_.base, part) if type_ is not None else None
-        type_ = member.type if member is not None else None
+    type_ = place.type_of(path)
     if type_ is None:
         return
     if type_.kind is Kind.OBJECT:
         for name in schema.ancestry(type_.base):
-            yield from (_variable(member) for member in schema.classes[name].members.values())
-        yield from _predicates(schema, type_.base)
-        yield from _methods(Receiver.OBJECT)
-    yield from _methods(Receiver.VARIABLE)
+            for member in schema.classes[name].members.values():
+                if not is_asked or place.leads_to_predicates(member.type):
+                    yield _variable(member)
+        if situation is not Situation.VALUE:
+            yield from _predicates(schema, type_.base)
+    if is_called:
+        yield from _methods(Receiver.OBJECT) if type_.kind is Kind.OBJECT else ()
+        yield from _methods(Receiver.VARIABLE)
 
 
-def _type_in(predicate: Predicate, name: str) -> Type | None:
-    found = next((each.type for each in predicate.parameters if each.name == name), None)
-    return found or builtin_type(name, predicate)
+def _leads_on(place: Place, path: list[str]) -> bool:
+    type_ = place.type_of(path)
+    return type_ is not None and place.leads_to_predicates(type_)
 
 
 def _predicates(schema: Schema, class_name: str) -> _Items:

@@ -18,6 +18,7 @@ class Situation(Enum):
     NEW = "a class of which an object is made"
     VALUE = "a value"
     RELATION = "what follows the name of a token"
+    TOKEN = "the token that a relation leads to"
     NOTHING = "a name that is being given"
     ANYTHING = "whatever there is"
 
@@ -67,15 +68,19 @@ def _situation(piece: Piece, begin: int, count: int, block: Situation, brackets:
         return Situation.NEW
     if last == "extends":
         return Situation.CLASS
+    if kind == "RELATION" or (last == "]" and "RELATION" in piece.kinds[begin:count]):
+        return Situation.TOKEN
     if last in _OPERATORS:
         return Situation.VALUE
     if brackets and last in ("(", ","):
         return brackets[-1]
+    if brackets and brackets[-1] is Situation.INSTANCE and kind == "IDENT":
+        return Situation.NOTHING
     if last == ")":
         return block  # of `if (...)` and `foreach (...)`
     if last == "else":
         return Situation.RULE
-    if last in ("class", "enum", "predicate", "action", "typedef") or kind == "BASETYPE":
+    if last in ("class", "enum", "predicate", "action", "typedef", "#include") or kind == "BASETYPE":
         return Situation.NOTHING if last != "typedef" else Situation.CLASS
     if kind == "IDENT" and count - begin == 1:
         return Situation.RELATION if block in (Situation.RULE, Situation.TOP) else Situation.NOTHING

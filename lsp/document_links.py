@@ -12,7 +12,7 @@ from lsp.open_text import DocumentContext
 from lsp.roots import models_below
 from nddl_lang.syntax.nodes import ClassDecl, Include
 
-_BEGUN = re.compile(r'[ \t]*#include[ \t]*"([^"\n]*)')
+_BEGUN = re.compile(r'[ \t]*#include[ \t]*("?)([^"\n]*)')
 
 
 def document_links(view: DocumentContext, conversion: Conversion) -> list[DocumentLink]:
@@ -31,20 +31,22 @@ def included_files(view: DocumentContext, offset: int, folders: Iterable[Path]) 
     text, path = view.parse.source.text, view.document.path
     begun = _BEGUN.fullmatch(text, text.rfind("\n", 0, offset) + 1, offset)
     if begun is None or path is None:
-        return None
+        return None if begun is None else []
     end = text.find("\n", offset)
     line_end = end if end >= 0 else len(text)
     quote = text.find('"', offset, line_end)
-    place = view.document.lines.range(begun.start(1), quote if quote >= 0 else offset)
+    place = view.document.lines.range(begun.start(2), quote if quote >= 0 else offset)
+    quoted = "{}" if begun[1] else '"{}"'
     names = dict.fromkeys(
         Path(os.path.relpath(file, path.parent)).as_posix()
         for folder in (path.parent, *folders)
         for file in models_below(folder)
         if file != path
     )
+    edits = [TextEdit(place, quoted.format(name)) for name in names]
     return [
-        CompletionItem(name, kind=CompletionItemKind.File, filter_text=name, text_edit=TextEdit(place, name))
-        for name in names
+        CompletionItem(name, kind=CompletionItemKind.File, filter_text=name, text_edit=edit)
+        for name, edit in zip(names, edits, strict=True)
     ]
 
 

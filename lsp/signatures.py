@@ -19,7 +19,7 @@ _CLOSING = {")": "(", "]": "[", "}": "{"}
 def signature_help(view: DocumentContext, offset: int) -> SignatureHelp | None:
     """The signatures of the innermost call around `offset`."""
     piece = piece_at(view.parse, offset)
-    call = _call_around(piece, offset) if piece is not None else None
+    call = call_around(piece, offset) if piece is not None else None
     if piece is None or call is None:
         return None
     name, at, count = call
@@ -33,7 +33,7 @@ def signature_help(view: DocumentContext, offset: int) -> SignatureHelp | None:
     return SignatureHelp(found, fitting, active)
 
 
-def _call_around(piece: Piece, offset: int) -> tuple[str, int, int] | None:
+def call_around(piece: Piece, offset: int) -> tuple[str, int, int] | None:
     """The name before the innermost open parenthesis, its index, and how many commas stand between."""
     depth = count = 0
     last = bisect_left(piece.ends, offset - piece.anchor.offset + 1)

@@ -260,6 +260,9 @@ def test_rules_come_as_snippets_where_the_editor_can_show_them(start_client: Any
 
 def test_the_path_of_an_include_is_completed(opened: Any) -> None:
     client, uri, _, _ = opened
+    client.change(uri, {"text": "#include \n" + MODEL})
+    found = client.ask_at("completion", uri, 0, 9)["items"]
+    assert [each["textEdit"]["newText"] for each in found] == ['"base.nddl"', '"other.nddl"']
     client.change(uri, {"text": '#include "ba\n' + MODEL})
     found = client.ask_at("completion", uri, 0, 12)["items"]
     assert [each["label"] for each in found] == ["base.nddl", "other.nddl"]
