@@ -67,17 +67,16 @@ class Greeting:
     prepares_renames: bool
 
     def plain(self, params: dict[str, Any]) -> dict[str, Any]:
-        """Parameters that say only what the answer was chosen by, and what the editor says to us alone."""
-        root = params.get("rootUri")
-        return {
-            "processId": None,
-            "rootUri": root if isinstance(root, str) else None,
-            "initializationOptions": params.get("initializationOptions"),
-            "capabilities": {
-                "general": {"positionEncodings": [self.encoding]},
-                "textDocument": {"rename": {"prepareSupport": self.prepares_renames}},
-            },
+        """Parameters that make sense, with what the answer was chosen by."""
+        told = params.get("capabilities") or {}
+        general, text = told.get("general") or {}, told.get("textDocument") or {}
+        rename = {**(text.get("rename") or {}), "prepareSupport": self.prepares_renames}
+        capabilities = {
+            **told,
+            "general": {**general, "positionEncodings": [self.encoding]},
+            "textDocument": {**text, "rename": rename},
         }
+        return {"processId": None, "rootUri": None, **params, "capabilities": capabilities}
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,10 +119,10 @@ def _greeting(number: int | str, params: dict[str, Any]) -> Greeting | None:
     capabilities = params.get("capabilities")
     encodings = _inside(capabilities, "general", "positionEncodings")
     prepares = _inside(capabilities, "textDocument", "rename", "prepareSupport")
-    is_readable = isinstance(capabilities, dict) and not isinstance(number, bool)
-    if not is_readable or not isinstance(encodings, list | None) or not isinstance(prepares, bool | None):
+    if not isinstance(capabilities, dict) or isinstance(number, bool):
         return None
-    encoding = next((each for each in encodings or () if each in _ENCODINGS), _USUAL_ENCODING)
+    listed = encodings if isinstance(encodings, list) else []
+    encoding = next((each for each in listed if each in _ENCODINGS), _USUAL_ENCODING)
     return Greeting(number, encoding, prepares is True)
 
 

@@ -1,16 +1,18 @@
 """Inlay hints: a part of a text in; what its words leave unsaid, to be shown between them, out."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from lsprotocol.types import InlayHint, InlayHintKind, Range
 
 from lsp.open_text import DocumentContext
 from lsp.relation_demands import demanded
+from lsp.uses import constants
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.relations import RELATIONS
 from nddl_lang.semantics.schema import Constructor, GlobalReference, Variable
 from nddl_lang.syntax.nodes import (
+    Expr,
     FloatLiteral,
     Instance,
     IntervalExpr,
@@ -41,13 +43,14 @@ def inlay_hints(view: DocumentContext, place: Range, settings: HintSettings) -> 
     lines = view.document.lines
     begin, finish = lines.offset(place.start), lines.offset(place.end)
     found: list[_Hint] = []
+    given = constants(view.snapshot.analysis) if settings.constants else {}
     for piece in view.parse.pieces:
         if piece.anchor.offset + piece.length <= begin or piece.anchor.offset >= finish:
             continue
         for statement in piece.statements:
-            is_rule = isinstance(statement, RuleDecl)
+            in_rule = given if isinstance(statement, RuleDecl) else None
             for node in descendants(statement):
-                found += _hints(view, node, settings, is_rule)
+                found += _hints(view, node, settings, in_rule)
     found.sort(key=lambda each: each[0])
     return [
         InlayHint(
@@ -65,8 +68,10 @@ def inlay_hints(view: DocumentContext, place: Range, settings: HintSettings) -> 
 _Hint = tuple[int, str, bool]
 
 
-def _hints(view: DocumentContext, node: object, settings: HintSettings, is_rule: bool) -> Iterator[_Hint]:
-    """Where in the text, what to show, and whether it names what follows."""
+def _hints(
+    view: DocumentContext, node: object, settings: HintSettings, given: Mapping[Variable, Expr] | None
+) -> Iterator[_Hint]:
+    """Where in the text, what to show, and whether it names what follows; in a rule also what is `given` to names."""
     analysis = view.snapshot.analysis
     match node:
         case Relation() if settings.relations and (row := RELATIONS.get(node.relation.name)) is not None:
@@ -82,9 +87,11 @@ def _hints(view: DocumentContext, node: object, settings: HintSettings, is_rule:
                 if isinstance(variable, Variable) and variable.type.name != variable.type.base:
                     if variable.type.restriction is not None and declarator.initialiser is None:
                         yield declarator.name.span.finish, f"∈ {domains.text(variable.type.restriction)}", False
-        case PathExpr() if settings.constants and is_rule:
+        case PathExpr() if settings.constants and given is not None:
             match analysis.tables.references.get(node):
-                case GlobalReference(variable=variable) if (value := _constant(variable)) is not None:
+                case GlobalReference(variable=variable) if (
+                    value := _constant(variable.initialiser or given.get(variable))
+                ) is not None:
                     yield node.span.finish, f"= {value}", False
         case NewExpr(arguments=arguments) if settings.arguments:
             chosen = analysis.tables.constructors.get(node)
@@ -99,10 +106,10 @@ def _arguments(constructor: Constructor, begins: list[int]) -> Iterator[_Hint]:
         yield begin, f"{parameter.name}:", True
 
 
-def _constant(variable: Variable) -> str | None:
+def _constant(value: Expr | None) -> str | None:
     """The number or range that a global variable is given."""
-    match variable.initialiser:
+    match value:
         case IntLiteral() | FloatLiteral() | IntervalExpr() | UnaryExpr():
-            return variable.initialiser.span.text
+            return value.span.text
         case _:
             return None

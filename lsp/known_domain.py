@@ -1,9 +1,10 @@
 """A variable where a rule names it in; what the comparisons of the rule that hold there leave of its domain out."""
 
+from lsp.uses import constants
 from nddl_lang.analysis import Analysis
 from nddl_lang.lint.logic import Known, assume
 from nddl_lang.lint.part import Key, Part
-from nddl_lang.lint.reading import declared, token_domain
+from nddl_lang.lint.reading import declared, token_domain, written
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.schema import Domain, Kind, TokenVariableReference, Values, Variable
 from nddl_lang.syntax.nodes import ExprConstraint, Foreach, IfStatement, RuleDecl, RuleStatement
@@ -30,7 +31,12 @@ def known_domain(
     kind = thing.type.kind
     if before is None and kind is Kind.ENUM and (enum := analysis.schema.enums.get(thing.type.base)) is not None:
         before = Values(tuple(enum.values))
-    known = _known_at(Part(rule, tables, analysis.dialect), rule, around)
+    given: dict[Key, Domain] = {
+        (variable, ""): domain
+        for variable, value in constants(analysis).items()
+        if variable.initialiser is None and (domain := written(value, variable.type.kind)) is not None
+    }
+    known = _known_at(Part(rule, tables, analysis.dialect), rule, around, Known(constants=given))
     left = known.domains.get(key)
     if left is not None and before is not None:
         left = domains.intersect(before, left, kind)
@@ -38,8 +44,7 @@ def known_domain(
     return None if left is None or left == before or kind is Kind.OBJECT else left
 
 
-def _known_at(part: Part, rule: RuleDecl, around: tuple[object, ...]) -> Known:
-    known = Known()
+def _known_at(part: Part, rule: RuleDecl, around: tuple[object, ...], known: Known) -> Known:
     body: tuple[RuleStatement, ...] | None = rule.body
     while body is not None:
         for statement in body:

@@ -23,6 +23,7 @@ from lsp.documents import Documents
 from lsp.formats import Formats
 from lsp.greeting import Greeting, own_version
 from lsp.inlay_hints import HintSettings
+from lsp.malformed import sensible
 from lsp.mission_texts import Examine, MissionTexts, OpenMission
 from lsp.open_text import DocumentContext, Publication
 from lsp.project import ServerSettings
@@ -64,7 +65,8 @@ class _Protocol(LanguageServerProtocol):
         except JsonRpcException as problem:
             if self.greeting is not None and data.get("method") == types.INITIALIZE:
                 self._server.report_server_error(problem, JsonRpcException)
-                return super().structure_message({**data, "params": self.greeting.plain(data["params"])})
+                left = sensible(data["params"], types.InitializeParams, self._converter.structure)
+                return super().structure_message({**data, "params": self.greeting.plain(left)})
             if "id" in data and "method" in data:
                 self._send_response(data["id"], error=problem.to_response_error())
             raise

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from nddl_lang.analysis import Analysis
 from nddl_lang.semantics.schema import EnumValue, GlobalReference, Predicate, Reference, Variable
-from nddl_lang.syntax.nodes import Assignment, ClassDecl, MethodCall, RuleDecl
+from nddl_lang.syntax.nodes import Assignment, ClassDecl, Expr, MethodCall, RuleDecl
 from nddl_lang.text.source import Span
 
 
@@ -35,6 +35,17 @@ def givings(analysis: Analysis, variable: Variable) -> Iterator[Use]:
             reference = analysis.tables.references.get(statement.target)
             if reference is not None and _is(reference, variable):
                 yield Use(" ".join(statement.span.text.rstrip(";").split()), statement.span)
+
+
+def constants(analysis: Analysis) -> dict[Variable, Expr]:
+    """What the script assigns to each global variable that it assigns to once."""
+    found: dict[Variable, list[Expr]] = {}
+    for statement in analysis.statements:
+        if isinstance(statement, Assignment):
+            reference = analysis.tables.references.get(statement.target)
+            if isinstance(reference, GlobalReference):
+                found.setdefault(reference.variable, []).append(statement.value)
+    return {variable: values[0] for variable, values in found.items() if len(values) == 1}
 
 
 def rules_on(analysis: Analysis, predicate: Predicate) -> list[RuleDecl]:

@@ -1,5 +1,6 @@
 """Work out whether a condition holds for all, or for no values that its variables can have."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from nddl_lang.lint.part import Key, Part
@@ -20,6 +21,7 @@ class Known:
 
     domains: dict[Key, Domain] = field(default_factory=dict)
     excluded: dict[Key, frozenset[_Value]] = field(default_factory=dict)
+    constants: Mapping[Key, Domain] = field(default_factory=dict)  # what the script, not the declaration, gives
 
     def without_exclusions(self) -> "Known":
         """What holds apart from the `else` branches on the way: their conditions are often spelt out again."""
@@ -142,13 +144,15 @@ def assume(part: Part, condition: Expr, holds: bool, known: Known, depth: int = 
 def _assume_side(part: Part, path: Expr, op: str, other: Expr, known: Known, *, is_branch: bool) -> Known:
     key = key_of(part.reference(path)) if isinstance(path, PathExpr) else None
     type_ = part.tables.types.get(path)
-    value = domain_of(part, other)
+    named = key_of(part.reference(other)) if isinstance(other, PathExpr) else None
+    given = known.constants.get(named) if named is not None else None
+    value = given if given is not None else domain_of(part, other)
     if key is None or type_ is None or value is None or (isinstance(other, PathExpr) and _single(value) is None):
         return known
     if op == "!=":
         single = _single(value)
         return _excluding(known, key, single) if single is not None else known
-    given: Domain | None = value
+    given = value
     if op != "==":
         single = _single(value)
         given = None

@@ -35,7 +35,7 @@ from nddl_lang.syntax.nodes import (
 _BOOLEANS = Values((False, True))
 
 
-def _written(expression: Expr, kind: Kind) -> Domain | None:
+def written(expression: Expr, kind: Kind) -> Domain | None:
     """The values that an expression of literals stands for; in an enum's variable names are its values."""
     if (value := number(expression)) is not None:
         return Values((value,))
@@ -50,7 +50,7 @@ def _written(expression: Expr, kind: Kind) -> Domain | None:
         case SetExpr(items=items):
             values: list[float | int | bool | str] = []
             for item in items:
-                domain = _written(item, kind)
+                domain = written(item, kind)
                 if not isinstance(domain, Values):
                     return None
                 values += domain.items
@@ -64,7 +64,7 @@ def declared(variable: Variable) -> Domain | None:
     known = variable.type.restriction
     if known is None and variable.type.kind is Kind.BOOL:
         known = _BOOLEANS
-    given = _written(variable.initialiser, variable.type.kind) if variable.initialiser is not None else None
+    given = written(variable.initialiser, variable.type.kind) if variable.initialiser is not None else None
     if given is None or known is None:
         return given if known is None else known
     return domains.intersect(known, given, variable.type.kind) or known
@@ -106,7 +106,7 @@ def _written_in(part: Part, expression: Expr) -> Domain | None:
                 return None
             values += domain.items
         return Values(tuple(values))
-    return _written(expression, Kind.INT)
+    return written(expression, Kind.INT)
 
 
 def token_domain(predicate: Predicate, name: str, type_: Type) -> Domain | None:
@@ -131,9 +131,9 @@ def _body_domains(predicate: Predicate, name: str, kind: Kind) -> list[Domain]:
             given: Domain | None = None
             match statement:
                 case Assignment(target=target, value=value) if _is_bare(target, name):
-                    given = _written(value, kind)
+                    given = written(value, kind)
                 case CallConstraint(name=call, arguments=(PathExpr() as first, second)) if call.name == "eq":
-                    given = _written(second, kind) if _is_bare(first, name) else None
+                    given = written(second, kind) if _is_bare(first, name) else None
                 case ExprConstraint(expression=expression):
                     given = _compared(expression, name)
                 case VariableDecl():
@@ -154,7 +154,7 @@ def _compared(expression: Expr, name: str) -> Domain | None:
     if left is None or right is None or not _is_bare(left, name):
         return None
     if op == "==":
-        return _written(right, Kind.INT)
+        return written(right, Kind.INT)
     value = number(right)
     return None if value is None else bounded(str(op), value)
 

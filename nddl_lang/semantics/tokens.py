@@ -149,8 +149,8 @@ def _check_instance(context: Context, scope: Scope, instance: Instance) -> Label
     return label
 
 
-def _find_token(context: Context, scope: Scope, name: Identifier) -> Label | None:
-    """The token of that name; a complaint where there is none."""
+def _find_token(context: Context, scope: Scope, name: Identifier, relation: Relation) -> Label | None:
+    """The token of that name; a complaint where there is none, with a name that stands on the other side never."""
     label = scope.find_label(name.name) or find_script_token(context, scope, name.name)
     if label is not None:
         context.tables.references[name] = TokenReference(label)
@@ -178,12 +178,19 @@ def _find_token(context: Context, scope: Scope, name: Identifier) -> Label | Non
             complaint = UNKNOWN_TOKEN.at(name.span, help=help_, fixes=(fix,), name=name.name)
             context.complain(complaint)
         elif scope.kind is BlockKind.SCRIPT:
-            context.complain(suggest_name(complaint, name, [*scope.visible_labels(), *context.symbols.names("goal")]))
+            labels = [*scope.visible_labels(), *context.symbols.names("goal")]
+            context.complain(suggest_name(complaint, name, [each for each in labels if each not in _linked(relation)]))
         else:
-            labels = scope.visible_labels()
+            labels = [label for label in scope.visible_labels() if label not in _linked(relation)]
             alike = [label for label in labels if _is_of(scope.find_label(label), name.name)]
             context.complain(suggest_name(complaint, name, labels, alike[0] if len(alike) == 1 else None))
     return None
+
+
+def _linked(relation: Relation) -> set[str]:
+    """The names of the tokens that a relation links."""
+    target = relation.existing.parts[0] if relation.existing is not None else None
+    return {name.name for name in (relation.origin, target) if name is not None}
 
 
 def _is_of(label: Label | None, predicate: str) -> bool:
@@ -234,7 +241,7 @@ def _find_relation(context: Context, name: Identifier) -> RelationRow | None:
 
 def _find_origin(context: Context, scope: Scope, node: Relation) -> Label | None:
     if node.origin is not None:
-        return _find_token(context, scope, node.origin)
+        return _find_token(context, scope, node.origin, node)
     if scope.own is None:
         context.complain(MISSING_ORIGIN.at(node.relation.span))
     return scope.own
@@ -263,7 +270,7 @@ def _check_existing(context: Context, scope: Scope, node: Relation, path: PathEx
         name = Identifier(path.span.text, path.span)
         context.complain(UNKNOWN_TOKEN.at(path.span, help="a token is known by a single name", name=name.name))
         return
-    label = _find_token(context, scope, path.parts[0])
+    label = _find_token(context, scope, path.parts[0], node)
     if label is not None:
         context.tables.existing[node] = label
         context.tables.references[path] = TokenReference(label)

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -83,8 +84,6 @@ def test_the_first_answer_is_that_of_a_session(make_wire: Any, capabilities: Any
         first(True, capabilities={}),
         first(),
         first(capabilities=[]),
-        first(capabilities={"general": {"positionEncodings": "utf-8"}}),
-        first(capabilities={"textDocument": {"rename": {"prepareSupport": "yes"}}}),
         first(capabilities={}).replace(b"initialize", b"initialized"),
         first(capabilities={}).replace(b"2.0", b"1.0"),
     ],
@@ -110,6 +109,29 @@ def test_capabilities_that_make_no_sense_are_passed_over(client: Any) -> None:
     client.notify("initialized")
     (complaint,) = client.open("untitled:one", 'string s = "🛰"; int x = y;\n')["diagnostics"]
     assert complaint["range"]["start"]["character"] == 24
+    assert client.leave() == 0
+
+
+def test_a_capability_that_makes_no_sense_costs_no_other(client: Any, tmp_path: Path) -> None:
+    """The odd ones are left out at any depth, and what stands beside them still counts."""
+    able = {
+        "general": {"positionEncodings": 8},
+        "workspace": [3],
+        "textDocument": {
+            "hover": {"contentFormat": ["plaintext"], "dynamicRegistration": 1},
+            "codeAction": {"codeActionLiteralSupport": {}, "resolveSupport": {"properties": ["edit"]}},
+            "completion": {"completionItem": {"snippetSupport": True, "tagSupport": 3}, "contextSupport": "yes"},
+            "rename": {"prepareSupport": "yes"},
+        },
+    }
+    folders = [{"uri": tmp_path.as_uri(), "name": "folder"}]
+    client.ask("initialize", processId="x", rootUri=3, capabilities=able, workspaceFolders=folders, clientInfo=7)
+    client.notify("initialized")
+    client.open("untitled:one", "class C extends Timeline { predicate p { } }\nint x = 3;\n\n")
+    found = client.ask_at("completion", "untitled:one", 2, 0)["items"]
+    assert any(each.get("insertTextFormat") == 2 for each in found)
+    shown = client.ask_at("hover", "untitled:one", 1, 4)["contents"]
+    assert shown["kind"] == "plaintext"
     assert client.leave() == 0
 
 

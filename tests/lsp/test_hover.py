@@ -6,6 +6,7 @@ from lsprotocol.types import DiagnosticSeverity, Position
 from lsp.definition import definition_of
 from lsp.documents import Documents
 from lsp.hover import hover_at
+from lsp.inlay_hints import HintSettings, inlay_hints
 from lsp.meaning import meaning_at
 from nddl_lang.semantics.constraints import CONSTRAINTS
 from nddl_lang.semantics.functions import FUNCTIONS
@@ -78,6 +79,17 @@ def test_the_model_of_these_tests_is_sound() -> None:
     assert [each.message for each in found if each.severity is DiagnosticSeverity.Error] == []
 
 
+def test_a_constant_that_the_script_assigns_is_hinted_at() -> None:
+    documents = Documents()
+    documents.open(URI, 1, MODEL)
+    view = documents.view(URI)
+    assert view is not None
+    lines = view.document.lines
+    begin = MODEL.index("hits <= MOST")
+    hints = inlay_hints(view, lines.range(begin, begin + len("hits <= MOST")), HintSettings())
+    assert [hint.label for hint in hints] == ["= 7"]
+
+
 @pytest.mark.parametrize(
     ("where", "expected"),
     [
@@ -103,7 +115,7 @@ def test_the_model_of_these_tests_is_sound() -> None:
         ("predicate |Active", ["predicate Gps.Active {\n  int hits;\n  Share quality = 0.5;\n}", "Collecting hits."]),
         ("Gps::|Active", ["predicate Gps.Active", "**Rules**", "[untitled:model:22]", "`duration`, `start`, `end`"]),
         ("|Gps::Active", ["class Gps"]),
-        ("|hits <= MOST", ["int hits", "Parameter of the token at hand, a `Gps.Active`."]),
+        ("|hits <= MOST", ["int hits", "Parameter of the token at hand, a `Gps.Active`.", "of this rule: `[-inf 7]`"]),
         ("|object.mode", ["Gps object", "on a timeline its tokens never overlap"]),
         ("before_it.|duration", ["int duration", "Of token `before_it`, a `Gps.Idle`."]),
         ("(Idle |before_it", ["Token `before_it`, a `Gps.Idle`.", "predicate Gps.Idle { }"]),
@@ -185,7 +197,7 @@ LEFT = """\
 enum Mode { Slow, Fast, Off }
 int MOST = 7;
 int LATER;
-LATER = 3;
+LATER = 6;
 class C extends Timeline { predicate p { int n; Mode mode; float share; bool is_on; } predicate q { int n; n <= 5; } }
 C::p {
   n <= MOST;
@@ -207,13 +219,13 @@ C::p {
 @pytest.mark.parametrize(
     ("place", "expected"),
     [
-        ("^n <= MOST", "[3 7]"),
+        ("^n <= MOST", "[3 6]"),
         ("int ^m = [0", None),  # what it is compared with is known only together with it
         ("^m == n", None),
         ("other.^n", "[1 5]"),
         ("^mode != Off", "{Slow, Fast}"),
         ("if (^mode", "{Slow, Fast}"),
-        ("^n >= 4", "[4 7]"),
+        ("^n >= 4", "[4 6]"),
         ("^share <=", "[-inf 0.5]"),
         ("^is_on", None),
         ("^m >= 50", "[50 100]"),
