@@ -4,6 +4,7 @@ cimport cython
 from runtime.constraints.domains.sparse_set cimport SparseSet
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.tokens.retraction cimport remove_tokens
+from runtime.plan.tokens.ties cimport ties_what_goes_on
 
 cdef long long ACTIVE, BRANCH_WAITING, END, FLAG_FROZEN, HOLDS_CONSTRAINT, HOLDS_EDGE, HOLDS_RESTRICTION, HOLDS_VARIABLES
 cdef long long KIND_FLOAT, MERGED, NONE, ROLE_LOCAL, ROLE_TOKEN, SCOPE_GUARD, START, SUPPORT_CONSTRAINT, SUPPORT_EDGE
@@ -20,9 +21,13 @@ cpdef long long archive(Plan plan, list tokens, long long tick, Leaving leaving,
 
 
 @cython.locals(
-    changed=bint, child="long long", doomed="signed char[::1]", i="long long", known=SparseSet, t="long long"
+    child="long long", doomed="signed char[::1]", i="long long", is_tied=bint, known=SparseSet, t="long long"
 )
 cpdef list _removable(Plan plan, list tokens, long long tick, Leaving leaving)
+
+
+@cython.locals(changed=bint, i="long long", t="long long")
+cpdef void _keep_needed(Plan plan, SparseSet known, signed char[::1] doomed, long long tick) except *
 
 
 @cython.locals(is_planned=bint)

@@ -88,8 +88,24 @@ def _removable(plan: Plan, tokens: list[int], tick: int, leaving: Leaving) -> li
     for i in range(known.count):
         t = known.items[i]
         doomed[t] = not plan.predicate_resource[rows.predicate[t]] and not _has_waiting_guard(plan, t)
+    _keep_needed(plan, known, doomed, tick)
+    is_tied = False
+    for i in range(known.count):
+        t = known.items[i]
         if doomed[t] and _has_child_that_goes_on(plan, t, tick) and ties_what_goes_on(plan, t, tick):
             doomed[t] = 0
+            is_tied = True
+    if is_tied:
+        _keep_needed(plan, known, doomed, tick)
+    found: list[int] = []
+    for i in range(known.count):
+        if doomed[known.items[i]]:
+            found.append(known.items[i])
+    return found
+
+
+def _keep_needed(plan: Plan, known: SparseSet, doomed: "array[int]", tick: int) -> None:
+    """Spare those of the doomed tokens on which something hangs that stays."""
     changed = True
     while changed:
         changed = False
@@ -98,11 +114,6 @@ def _removable(plan: Plan, tokens: list[int], tick: int, leaving: Leaving) -> li
             if doomed[t] and not _is_free(plan, t, doomed, tick):
                 doomed[t] = 0
                 changed = True
-    found: list[int] = []
-    for i in range(known.count):
-        if doomed[known.items[i]]:
-            found.append(known.items[i])
-    return found
 
 
 def _is_free(plan: Plan, t: int, doomed: "array[int]", tick: int) -> bool:

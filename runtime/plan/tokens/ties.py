@@ -22,6 +22,36 @@ from runtime.plan.tags import (
 
 def ties_what_goes_on(plan: Plan, t: int, tick: int) -> bool:
     """Whether what the rules of `t` posted ties two variables that may still change after `tick`, also by locals."""
+    return _has_two_that_go_on(plan, t, tick) and _joins_what_goes_on(plan, t, tick)
+
+
+def _has_two_that_go_on(plan: Plan, t: int, tick: int) -> bool:
+    """Whether the rules of `t` posted anything about two variables that may still change; nearly always they did not."""
+    engine, rows = plan.engine, plan.rows
+    only = NONE
+    s = rows.scopes[t]
+    while s >= 0:
+        h = rows.scope_holds[s] if rows.scope_kind[s] not in (SCOPE_MERGE, SCOPE_INSERTION) else NONE
+        while h >= 0:
+            at, kind = rows.hold_id[h], rows.hold_kind[h]
+            count = engine.arity[at] if kind == HOLDS_CONSTRAINT else 2 if kind == HOLDS_EDGE else 0
+            for k in range(count):
+                if kind == HOLDS_CONSTRAINT:
+                    v = engine.slot_variable[engine.first[at] + k]
+                else:
+                    v = engine.edge_target[at] if k else engine.edge_source[at]
+                v = _standing_for(plan, v)
+                if v != only and not _is_known(plan, v) and _goes_on(plan, v, tick):
+                    if only != NONE:
+                        return True
+                    only = v
+            h = rows.hold_next[h]
+        s = rows.scope_next[s]
+    return False
+
+
+def _joins_what_goes_on(plan: Plan, t: int, tick: int) -> bool:
+    """Whether two such variables are joined, by what relates them or by what relates others to both."""
     groups: dict[int, int] = {}  # union-find over the variables without a value
 
     def root(v: int) -> int:
