@@ -18,7 +18,12 @@ from nddl_lang.text.toml_places import Stretch
 from runtime.solver.configuration.element import Attribute, Element
 from runtime.solver.configuration.read_xml import read_xml
 
-_CLOCKS = ("StepClock", "RealTimeClock", "FastClock", "LogClock")
+_CLOCKS = {
+    "StepClock": {"steps": "steps"},
+    "RealTimeClock": {"percent_use": "percent_use"},
+    "FastClock": {},
+    "LogClock": {"file": "log"},
+}
 _SECONDS = {"hours": 3600.0, "minutes": 60.0, "seconds": 1.0, "millis": 1e-3, "micros": 1e-6}
 _AGENT = {"name": "name", "finalTick": "final_tick"}
 _AGENT_UNREAD = ("allow_empty", "config")
@@ -50,6 +55,7 @@ class _AgentFile:
     reactors: list[TomlTable] = field(default_factory=list)
     goals: list[TomlTable] = field(default_factory=list)
     clock: Element | None = None
+    steps: TomlTable = field(default_factory=dict)  # how many there are in a tick, as the clock says
 
     def read(self, agent: Element) -> TomlTable:
         """All of a file; `agent` is its root."""
@@ -75,7 +81,7 @@ class _AgentFile:
                     self._clock(child)
                 case _:
                     self._complain_of_element(child, "Agent", _CONTENTS)
-        return {"mission": self.mission, "reactor": self.reactors, "goal": self.goals}
+        return {"mission": self.mission, "reactor": self.reactors, "goal": self.goals, "clock": self.steps}
 
     def _with_config(self, element: Element) -> Element:
         """An element with what the file named by `config` adds; what stands in the element itself counts first."""
@@ -210,14 +216,16 @@ class _AgentFile:
             self.text.diagnostics.append(NO_FILE.at(file.span, path=file.value))
 
     def _clock(self, element: Element) -> None:
-        """A clock says how long a tick is; time passes as fast as the mission can be flown."""
+        """A clock says how long a tick is, and how many steps of planners there are in it."""
         if self.clock is not None:
             first = (Note("first here", self.clock.span),)
             self.text.diagnostics.append(TWICE.at(element.span, what="a clock", name=element.tag, notes=first))
             return
         self.clock = element
-        if element.tag not in ("RealTimeClock", "FastClock"):
-            return
+        self._put(("clock",), element.span)
+        if element.tag == "LogClock" and element.find("file") is None:
+            self.steps["log"] = "clock.xml"  # T-REX's name for it
+        self._attributes(element, self.steps, ("clock",), _CLOCKS[element.tag], (*_UNREAD, *_SECONDS))
         seconds = 0.0
         for attribute in element.attributes:
             factor, value = _SECONDS.get(attribute.name), _value(attribute.value)
@@ -228,7 +236,7 @@ class _AgentFile:
                 self.text.diagnostics.append(
                     WRONG_TYPE.at(attribute.span, key=attribute.name, wanted="a number", found="a text")
                 )
-        if seconds:
+        if seconds and element.tag in ("RealTimeClock", "FastClock"):
             self.mission["tick"] = seconds
 
     def _attributes(
@@ -239,7 +247,7 @@ class _AgentFile:
             close = nearest(attribute.name, [*known]) if attribute.name not in unread else None
             key = known.get(attribute.name, known.get(close or ""))
             if key is not None:
-                is_text = key in ("name", "model", "solver", "code", "timeline", "predicate")
+                is_text = key in ("name", "model", "solver", "code", "timeline", "predicate", "log")
                 table[key] = attribute.value if is_text else _value(attribute.value)
                 self._put((*path, key), attribute.span)
             if attribute.name not in known and attribute.name not in unread:

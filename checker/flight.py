@@ -15,6 +15,7 @@ from checker.judge.rendering import DisagreementError
 from checker.names import relative_name
 from checker.properties import property_fates
 from nddl_lang.text.read import read_source
+from runtime.executive.clocks import FastClock
 from runtime.executive.configuration import AgentConfiguration, CodeConfiguration
 from runtime.executive.events import changed_events
 from runtime.executive.mission import MissionPrograms, record_mission
@@ -34,13 +35,14 @@ def fly_programs(
     until: int | None = None,
     *,
     tells_on: bool = True,
+    clock: FastClock | None = None,
 ) -> Outcome:
     """Fly one mission; `values` replaces draws of the named parameters, `until` ends it before its final tick.
 
     It raises `DisagreementError` where the judge holds that the executive broke the model. Without `tells_on`
     conflicts end at what was observed: enough for who asks for the verdict alone.
     """
-    return fly_recorded(agent, programs, seed, values, until, tells_on=tells_on)[0]
+    return fly_recorded(agent, programs, seed, values, until, tells_on=tells_on, clock=clock)[0]
 
 
 def fly_recorded(
@@ -51,11 +53,12 @@ def fly_recorded(
     until: int | None = None,
     *,
     tells_on: bool = True,
+    clock: FastClock | None = None,
 ) -> tuple[Outcome, MissionRecord]:
     """The same, with the record of what was executed."""
     root = Path(agent.root)
     with seldom_collected(), redirect_stdout(sys.stderr):  # what constraints print would end up in reports
-        outcome, record = record_mission(agent, programs, seed, values, until=until, tells_on=tells_on)
+        outcome, record = record_mission(agent, programs, seed, values, until=until, tells_on=tells_on, clock=clock)
         record = few_listed(record)
         report = judge_mission(agent, programs.programs, outcome, record, programs.constraints, values)
     if report.errors:

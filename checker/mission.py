@@ -12,6 +12,7 @@ from typing import cast
 
 from checker.agent_file import read_agent_file
 from checker.batch_xml import read_batch
+from checker.clock_table import read_clock
 from checker.codes import CYCLE, NO_FILE, NO_GOALS, NO_OWNER, NO_TEXT_FILE, NOT_TOML, TWICE, UNKNOWN_CHOICE
 from checker.figures import Figures, read_figures
 from checker.goal_fit import goals_out_of_time
@@ -110,6 +111,7 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
         coded=coded,
         properties=read_properties(top.tables("property"), owned),
         order=tuple(name for table in tables if isinstance(name := table.values.get("name"), str)),
+        clock=read_clock(top.table("clock", "[clock]"), root),
     )
     check = _read_check(top.table("check", "[check]"))
     figures = read_figures(top.table("figures", "[figures]"), owned)
@@ -352,18 +354,16 @@ def _find_cycle(reactors: list[ReactorConfiguration | CodeConfiguration], owners
     uses = {one.name: [owners[name] for name in one.external if name in owners] for one in reactors}
     waiting = {name: set(used) for name, used in uses.items()}
     while free := [name for name, used in waiting.items() if not used]:
-        for name in free:
-            del waiting[name]
+        waiting = {name: used for name, used in waiting.items() if name not in free}
         for used in waiting.values():
             used.difference_update(free)
-    if not waiting:
-        return []
-    trail = [next(iter(waiting))]
-    while True:
+    trail = [next(iter(waiting))] if waiting else []
+    while trail:
         following = next(name for name in uses[trail[-1]] if name in waiting)
         if following in trail:
             return [*trail[trail.index(following) :], following]
         trail.append(following)
+    return []
 
 
 def _complain_of_twin(table: Table, span: Span, what: str, name: str, first: Span) -> None:

@@ -3,7 +3,7 @@
 import json
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from checker.oracle import Judgement, judge, judge_losses
 from checker.pinned import pinned
 from nddl_lang.text.read import real_path
 from nddl_lang.text.values import json_value
+from runtime.executive.clocks import FastClock, LogClock
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import trace_json
 
@@ -24,11 +25,15 @@ _HEAD = "mission"  # the kind of the first line of a trace
 
 @dataclass(frozen=True, slots=True)
 class FlightSettings:
-    """What decides a flight, beside the mission file: the seed, values given to parameters, where it stops."""
+    """What decides a flight, beside the mission file: the seed, values given to parameters, where it stops.
+
+    `steps` are those that planners made in each tick, where another clock than the mission file's decided it.
+    """
 
     seed: int
     values: Mapping[str, float]
     until: int | None = None
+    steps: tuple[tuple[int, int], ...] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,17 +46,22 @@ class Flight:
     judgement: Judgement
 
 
-def fly(mission: Mission, models: ModelSet, settings: FlightSettings) -> Flight:
-    """Fly the mission once."""
+def fly(mission: Mission, models: ModelSet, settings: FlightSettings, clock: FastClock | None = None) -> Flight:
+    """Fly the mission once, by a clock, by the steps that another one counted, or by that of the mission file."""
     programs = pinned(models).programs_of(models.agent)
-    outcome = fly_programs(models.agent, programs, settings.seed, dict(settings.values), settings.until)
+    logged = None if settings.steps is None else LogClock(dict(settings.steps))
+    outcome = fly_programs(
+        models.agent, programs, settings.seed, dict(settings.values), settings.until, clock=clock or logged
+    )
+    if clock is not None:
+        settings = replace(settings, steps=tuple(sorted(clock.counts.items())))
     judged = judge_losses(judge(outcome), losses_of(outcome), mission.check.limits)
     return Flight(settings, model_digest(models.texts), outcome, judged)
 
 
 def trace_text(flight: Flight, mission: Path, trace: Path) -> str:
     """The flight as JSON Lines: first what decides it, with the mission file relative to the trace, then its events."""
-    head = {
+    head: dict[str, object] = {
         "tick": 0,
         "phase": "start",
         "kind": _HEAD,
@@ -61,6 +71,8 @@ def trace_text(flight: Flight, mission: Path, trace: Path) -> str:
         "values": dict(sorted(flight.settings.values.items())),
         "until": flight.settings.until,
     }
+    if flight.settings.steps is not None:
+        head["steps"] = flight.settings.steps
     lines = [json.dumps(head, ensure_ascii=False, separators=(",", ":"))]
     lines += [trace_json(event) for event in flight.outcome.events]
     return "\n".join(lines) + "\n"
@@ -84,9 +96,11 @@ def read_trace(path: Path) -> Recorded:
         raise ValueError("its first line does not say which mission it is of")
     try:
         values = {str(name): float(value) for name, value in head["values"].items()}
-        settings = FlightSettings(int(head["seed"]), values, None if head["until"] is None else int(head["until"]))
+        steps = tuple((int(tick), int(count)) for tick, count in head["steps"]) if "steps" in head else None
+        until = None if head["until"] is None else int(head["until"])
+        settings = FlightSettings(int(head["seed"]), values, until, steps)
         return Recorded(path.parent / str(head["mission"]), str(head["models"]), settings, tuple(lines[1:]))
-    except (KeyError, TypeError, AttributeError) as problem:
+    except (KeyError, TypeError, ValueError, AttributeError) as problem:
         raise ValueError("its first line lacks what decides the flight") from problem
 
 

@@ -10,15 +10,18 @@ from typing import Any
 import click
 
 from checker.causes import failed_by, lines_that_rule_out, missed_after
+from checker.clock_table import clock_log
 from checker.happened import WIDTH, gantt
 from checker.mission import LARGEST_SEED
 from checker.one_flight import Flight, FlightSettings, fly, trace_text
 from checker.oracle import Verdict
+from checker.real_time import RealTimeClock
 from checker.rendering import failure_text
 from nddlc.fitting import columns, say
 from nddlc.inputs import mission_here, write_text
 from nddlc.one_mission import prepare, values_of
 from nddlc.trust import trust_option
+from runtime.executive.clocks import clock_of
 from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, OpenGoal
 from runtime.executive.rendering import event_text, goal_text
@@ -26,6 +29,7 @@ from runtime.executive.rendering import event_text, goal_text
 _PASS, _FAIL = 0, 1
 _TOLD = (EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL, EventKind.RELAX, EventKind.KILL, EventKind.ABORT)
 
+_FILE = click.Path(path_type=Path, dir_okay=False)
 _MOST_LINES = 8  # of the model that are named for a failure
 
 
@@ -34,24 +38,44 @@ _MOST_LINES = 8  # of the model that are named for a failure
 @click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="The seed of the mission, else that of the file.")
 @click.option("--param", "given", multiple=True, metavar="NAME=VALUE", help="Give a parameter a value; repeatable.")
 @click.option("--until", type=click.IntRange(0), help="Stop at this tick.")
-@click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), help="Write the trace here, as JSON Lines.")
+@click.option("--trace", type=_FILE, help="Write the trace here, as JSON Lines.")
+@click.option("--real-time", "is_timed", is_flag=True, help="Let each tick take its time; what takes longer is late.")
+@click.option("--clock", "log", type=_FILE, help="Write the steps of planners in each tick here, for `log` of a clock.")
 @trust_option
 def command(
-    path: str | None, seed: int | None, given: tuple[str, ...], until: int | None, trace: Path | None, is_trusted: bool
+    path: str | None,
+    seed: int | None,
+    given: tuple[str, ...],
+    until: int | None,
+    trace: Path | None,
+    log: Path | None,
+    is_timed: bool,
+    is_trusted: bool,
 ) -> int:
     """Fly one mission and show what happened.
 
-    MISSION is a mission file (.toml), by default the one here, or an agent file of T-REX (.xml). Ends with 0 if the
-    mission passes, with 1 if it fails, with 2 if it cannot be flown.
+    MISSION is a mission file (.toml), by default the one here, or an agent file of T-REX (.xml). It is flown as fast as
+    it can be, unless `--real-time` is given. Ends with 0 if the mission passes, with 1 if it fails, with 2 if it cannot
+    be flown.
     """
     file, mission, models = prepare(mission_here(path), is_trusted=is_trusted)
     settings = FlightSettings(mission.check.seed if seed is None else seed, values_of(given, models), until)
-    _progress(f"flying {mission.agent.name} ...")
-    flight = fly(mission, models, settings)
+    agent = models.agent
+    clock = clock_of(agent.clock)
+    if is_timed:
+        ends = agent.final_tick if until is None else min(until, agent.final_tick)
+        clock = RealTimeClock(agent.tick, agent.clock.share, lambda tick: _progress(f"tick {tick} of {ends} ..."))
+    else:
+        _progress(f"flying {agent.name} ...")
+    flight = fly(mission, models, settings, clock if is_timed or log is not None else None)
     _progress("")
+    if log is not None:
+        write_text(log, clock_log(clock, agent.tick))
     if trace is not None:
         write_text(trace, trace_text(flight, file, trace))
     say(_report(mission.agent.name, flight))
+    if isinstance(clock, RealTimeClock):
+        say(f"  a tick of {agent.tick:g} s began {clock.latest:.3g} s late at most\n")
     return _PASS if flight.judgement.verdict is Verdict.PASS else _FAIL
 
 

@@ -6,7 +6,7 @@ from runtime.executive.trace cimport Trace
 
 
 cdef class Agent:
-    cdef public object configuration, poster
+    cdef public object clock, configuration, poster
     cdef public Trace trace
     cdef public bint every_tick
     cdef public list reactors, ahead, awake, killed, stirred

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
+from runtime.executive.clocks import FastClock
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import (
@@ -16,6 +17,7 @@ from runtime.executive.outcome import (
     Reason,
     ReasonKind,
 )
+from runtime.executive.ownership import in_order, tell_owners
 from runtime.executive.poster import GoalPoster
 from runtime.executive.reactor import Failure, Refusal, TeleoReactor, Watched
 from runtime.executive.trace import Trace, as_it_is
@@ -25,52 +27,8 @@ _START, _SYNCHRONISE, _OBSERVE = Phase.START, Phase.SYNCHRONISE, Phase.OBSERVE
 _DELIBERATE, _DISPATCH = Phase.DELIBERATE, Phase.DISPATCH
 
 
-class OwnershipError(ValueError):
-    """Reactors whose timelines have no owner, several owners, or owners in a cycle."""
-
-
-def _in_order(reactors: Sequence[TeleoReactor]) -> list[TeleoReactor]:
-    """Reactors with owners before users, otherwise as given (T-REX 1.3).
-
-    Raises `OwnershipError` where a timeline has no owner or several, or where owners depend on each other.
-    """
-    owner: dict[str, TeleoReactor] = {}
-    for reactor in reactors:
-        for timeline in reactor.internal:
-            if timeline in owner:
-                raise OwnershipError(f"`{timeline}` is owned by `{owner[timeline].name}` and by `{reactor.name}`")
-            owner[timeline] = reactor
-    waiting = list(reactors)
-    done: list[TeleoReactor] = []
-    while waiting:
-        for reactor in waiting:
-            for timeline in reactor.external:
-                if timeline not in owner:
-                    raise OwnershipError(f"`{reactor.name}` uses `{timeline}`, which no reactor owns")
-            if all(owner[timeline] in done for timeline in reactor.external):
-                break
-        else:
-            names = ", ".join(f"`{reactor.name}`" for reactor in waiting)
-            raise OwnershipError(f"reactors wait for each other's timelines in a cycle: {names}")
-        waiting.remove(reactor)
-        done.append(reactor)
-    return done
-
-
-def _tell_owners(reactors: Sequence[TeleoReactor]) -> None:
-    """Give each reactor its execution latency, and those of the owners it uses; `reactors` has owners first.
-
-    The execution latency is a reactor's own and the largest of those it depends on (T-REX 1.1).
-    """
-    windows: dict[str, tuple[int, int]] = {}
-    for reactor in reactors:
-        latency = reactor.latency + max((windows[timeline][0] for timeline in reactor.external), default=0)
-        reactor.set_owners({timeline: windows[timeline] for timeline in reactor.external}, latency)
-        windows |= dict.fromkeys(reactor.internal, (latency, reactor.lookahead))
-
-
 class Agent:
-    """Reactors under one step clock; `run` carries out the mission once."""
+    """Reactors under one clock; `run` carries out the mission once."""
 
     def __init__(
         self,
@@ -81,13 +39,15 @@ class Agent:
         trace: Trace,
         every_tick: bool = False,
         tells_on: bool = True,
+        clock: FastClock | None = None,
     ) -> None:
         self.configuration = configuration
+        self.clock = clock or FastClock()
         self.every_tick = every_tick
         self.poster = GoalPoster(goals, configuration.goals, trace)
-        self.reactors = _in_order(reactors)
+        self.reactors = in_order(reactors)
         self.places = {reactor: place for place, reactor in enumerate(self.reactors)}
-        _tell_owners(self.reactors)
+        tell_owners(self.reactors)
         self.ahead = [reactor for reactor in self.reactors if reactor.runs_ahead]
         if self.ahead == self.reactors[:1]:
             self.ahead = []  # nothing comes between what it has carried out already and what it does now
@@ -115,6 +75,7 @@ class Agent:
         abort: Abort | None = None
         while True:
             self.trace.tick = self.tick
+            self.clock.begin(self.tick)
             if self.ahead:
                 self._pass_over()
             abort = self._synchronise()
@@ -209,6 +170,8 @@ class Agent:
                 continue
             reactor = self._most_urgent(busy)
             self.trace.phase = _DELIBERATE
+            if reactor.lookahead > 1 and not self.clock.grants_step():
+                reactor.halt()
             if reactor.step(self.tick):
                 continue
             busy.remove(reactor)

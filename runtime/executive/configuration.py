@@ -150,6 +150,19 @@ class PropertyConfiguration:
 
 
 @dataclass(frozen=True, slots=True)
+class ClockConfiguration:
+    """How long planners may deliberate in a tick; by default until nobody has work (reference of T-REX, 1.2).
+
+    `steps` are those of a step clock, `counts` the steps by tick of a log clock; of a tick in real time planners may
+    use a `share`.
+    """
+
+    steps: int | None = None
+    counts: tuple[tuple[int, int], ...] | None = None
+    share: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
 class AgentConfiguration:
     """One mission but for its seed. A parameter of the model that is not listed is uniform over its base domain.
 
@@ -169,3 +182,4 @@ class AgentConfiguration:
     coded: tuple[CodeConfiguration, ...] = ()  # reactors written in Python
     properties: tuple[PropertyConfiguration, ...] = ()
     order: tuple[str, ...] = ()
+    clock: ClockConfiguration = ClockConfiguration()

@@ -10,6 +10,7 @@ from runtime.determined.building import find_out, known
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.reactor import DeterminedReactor
 from runtime.executive.agent import Agent
+from runtime.executive.clocks import FastClock, clock_of
 from runtime.executive.coded_reactor import CodedReactor
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, Value
 from runtime.executive.draws import Draws, World
@@ -73,20 +74,21 @@ def record_mission(
     until: int | None = None,
     compiles: bool = True,
     tells_on: bool = True,
+    clock: FastClock | None = None,
 ) -> tuple[Outcome, MissionRecord]:
     """Carry out one mission; `overrides` replaces draws of the named parameters by given values.
 
     Determined reactors are carried out as register code, unless `compiles` is false: events are the same.
     It ends at the final tick, or at `until`. With `every_tick` reactors are woken at each tick, whether or not anything
     can happen; events are the same. Without `tells_on` conflicts end at what a reactor has observed, which saves the
-    work to ask the reactor that published it.
+    work to ask the reactor that published it. It is flown by `clock`, by default that of the configuration.
 
     A model that does not load, be it for what was drawn, ends the mission before it begins (F9). Raises `ValueError`
     (of `workbench` and `agent`) for timelines that do not exist or have no single owner.
     """
     with Loans() as loans:
         outcome, reactors = _flown(
-            configuration, programs, seed, overrides, every_tick, until, compiles, True, loans, tells_on
+            configuration, programs, seed, overrides, every_tick, until, compiles, True, loans, tells_on, clock
         )
         recorded = tuple(each.record() for each in reactors if isinstance(each, (PlanReactor, DeterminedReactor)))
     return outcome, MissionRecord(recorded)
@@ -103,6 +105,7 @@ def _flown(
     records: bool,
     loans: Loans,
     tells_on: bool = True,
+    clock: FastClock | None = None,
 ) -> tuple[Outcome, list[TeleoReactor]]:
     """A mission, and its reactors as it left them."""
     trace = Trace()
@@ -115,7 +118,8 @@ def _flown(
     for number, goal in enumerate(configuration.goals):
         kinds = _goal_kinds(configuration, programs, goal)
         goals.append((goal.at, request_of(goal, -1 - number, kinds)))
-    agent = Agent(configuration, reactors, goals, seed, trace, every_tick, tells_on)
+    clock = clock or clock_of(configuration.clock)
+    agent = Agent(configuration, reactors, goals, seed, trace, every_tick, tells_on, clock)
     try:
         return agent.run(until), reactors
     except LimitError as problem:

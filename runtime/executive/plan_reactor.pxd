@@ -28,7 +28,7 @@ cdef class PlanReactor(TeleoReactor):
     cdef public Past past
     cdef public list timelines
     cdef public dict by_name
-    cdef public bint is_stirred
+    cdef public bint is_stirred, is_halted
 
     cpdef object start_tick(self, long long tick)
 
@@ -67,6 +67,8 @@ cdef class PlanReactor(TeleoReactor):
     cpdef object _rest(self, long long tick)
 
     cpdef bint is_out_of_steps(self) except -1
+
+    cpdef object halt(self)
 
     @cython.locals(outcome="long long")
     cpdef bint step(self, long long tick) except -1

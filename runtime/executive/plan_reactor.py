@@ -69,6 +69,7 @@ class PlanReactor(TeleoReactor):
         self.deferral = Deferral(bench, self.timelines, self.past)
         self.dispatch = Dispatch(self.name, bench, self.timelines, trace)
         self.is_stirred = False  # something came from outside after the present was synchronised
+        self.is_halted = False  # the clock grants no more steps in this tick
 
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
         """Take note of when owners want to be asked; its own window counts what they need (T-REX 1.1)."""
@@ -89,7 +90,7 @@ class PlanReactor(TeleoReactor):
         if not self.is_out_of_steps():
             self._rest(tick)
         self.decisions_made = 0
-        self.is_stirred = False
+        self.is_stirred = self.is_halted = False
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published this tick; the last word counts. What cannot matter waits.
@@ -276,8 +277,12 @@ class PlanReactor(TeleoReactor):
         self.steps_made = 0
 
     def is_out_of_steps(self) -> bool:
-        """Whether it has made as many decisions in this tick as it may."""
-        return self.max_steps is not None and self.decisions_made >= self.max_steps
+        """Whether it has made as many decisions in this tick as it may, or as the clock lets it."""
+        return self.is_halted or (self.max_steps is not None and self.decisions_made >= self.max_steps)
+
+    def halt(self) -> None:
+        """Leave what is undecided to the next tick."""
+        self.is_halted = True
 
     def step(self, tick: int) -> bool:
         """Take in requests, or make one decision inside the planning window; when nothing is left, keep the plan.

@@ -27,6 +27,8 @@ cdef class TeleoReactor:
 
     cpdef bint step(self, long long tick) except -1
 
+    cpdef object halt(self)
+
     cpdef object failure(self)
 
     cpdef list requests(self, long long tick)

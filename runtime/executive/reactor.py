@@ -109,6 +109,9 @@ class TeleoReactor:
         """Take in what was asked, or make one planning decision; False if there is nothing left to do."""
         return False
 
+    def halt(self) -> None:
+        """The clock grants no more steps in this tick: what is undecided stays so until the next one."""
+
     def failure(self) -> Failure | None:
         """Why planning has failed for good, if it has."""
         return None

@@ -2,9 +2,9 @@
 
 import pytest
 
-from runtime.executive.agent import OwnershipError
 from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.outcome import Outcome
+from runtime.executive.ownership import OwnershipError
 from runtime.executive.rendering import reason_text
 from tests.executive.flying import Flyer, fly, history, lines, open_goals, planner, simulator
 

@@ -26,7 +26,7 @@ def ties_what_goes_on(plan: Plan, t: int, tick: int) -> bool:
 
 
 def _has_two_that_go_on(plan: Plan, t: int, tick: int) -> bool:
-    """Whether the rules of `t` posted anything about two variables that may still change; nearly always they did not."""
+    """Whether the rules of `t` posted anything about two variables that may still change: the usual no, found soon."""
     engine, rows = plan.engine, plan.rows
     only = NONE
     s = rows.scopes[t]
