@@ -41,18 +41,18 @@ from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.values import json_text
 from nddlc.batch_seed import BatchSeed
 from nddlc.fitting import colours, say
-from nddlc.inputs import Unusable, chosen_dialect, configured, mission_here, readable, write_text
+from nddlc.inputs import STORE, Unusable, chosen_dialect, configured, mission_here, readable, write_text
 from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.mission_trust import models_of
-from nddlc.progress import Display, SeekingDisplay
+from nddlc.progress import Display
 from nddlc.samplers import find_sampler
+from nddlc.seeking import SeekingDisplay
 from nddlc.trust import trust_option
 from nddlc.watch import WatchedCommand
 
 _HOLDS, _FINDINGS, _UNUSABLE, _BUG = 0, 1, 2, 3
 _SIGNALLED = 128  # and the number of the signal: 130 for Ctrl-C, 143 for SIGTERM
-STORE = Path(".nddlc/runs.sqlite")
 _REPORT = Path("nddlc-report")
 _SECONDS_A_FAULT, _SECONDS = 30.0, 60.0  # that causes are sought, for one fault and for all of them
 _STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")

@@ -14,8 +14,7 @@ from checker.report.sentences import missions, percent
 from checker.sampling.rendering import number
 from checker.sampling.sampler import RANDOM_POINT, MissionRole
 from nddl_lang.text.values import json_text, json_value
-from nddlc.check import STORE
-from nddlc.inputs import Unusable
+from nddlc.inputs import STORE, Unusable
 
 _SAME, _WORSE = 0, 1
 _SURE = 0.05

@@ -26,12 +26,11 @@ from checker.names import mission_name
 from checker.oracle import Verdict
 from checker.pinned import pinned
 from nddl_lang.text.values import json_text
-from nddlc.check import STORE
 from nddlc.fitting import say
-from nddlc.inputs import Unusable, present, readable
+from nddlc.inputs import STORE, Unusable, present, readable
 from nddlc.mission_trust import models_of
-from nddlc.progress import SeekingDisplay
 from nddlc.samplers import SAMPLERS, find_sampler
+from nddlc.seeking import SeekingDisplay
 from nddlc.trust import trust_option
 from runtime.executive.rendering import event_data, trace_line
 

@@ -21,6 +21,7 @@ from nddlc.fitting import columns, fitted
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
+STORE = Path(".nddlc/runs.sqlite")  # where runs are kept unless another place is named
 
 _MISSION = "`nddlc lint` looks at missions and configurations"
 _NO_MODELS = {

@@ -28,8 +28,8 @@ from checker.process import (
     records_path,
 )
 from checker.report.sentences import decision, headline
-from nddlc.check import STORE, cores
-from nddlc.inputs import Unusable, write_text
+from nddlc.check import cores
+from nddlc.inputs import STORE, Unusable, write_text
 from nddlc.one_mission import prepare
 from nddlc.trust import trust_option
 

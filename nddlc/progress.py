@@ -12,9 +12,7 @@ from rich.progress import Progress as Bar
 from checker.batch.progress import Progress
 from checker.report.sentences import percent
 from checker.statistics import confidence_sequence
-
-_BAR_SECONDS = 0.2  # between two looks of the bar
-_LINE_SECONDS = 4.0  # between two plain lines
+from nddlc.seeking import BAR_SECONDS, LINE_SECONDS
 
 
 class Display:
@@ -40,7 +38,7 @@ class Display:
 
     def __call__(self, progress: Progress) -> None:
         now = time.monotonic()
-        if now - self._shown < (_LINE_SECONDS if self._bar is None else _BAR_SECONDS):
+        if now - self._shown < (LINE_SECONDS if self._bar is None else BAR_SECONDS):
             return
         self._shown = now
         text = _progress_text(progress, self._confidence)
@@ -49,33 +47,6 @@ class Display:
         else:
             task = self._bar.task_ids[0]
             self._bar.update(task, total=progress.planned, completed=progress.done, description=text, refresh=True)
-
-
-class SeekingDisplay:
-    """A call shows how many flights were made to find out why missions fail, unless that was done just now."""
-
-    def __init__(self) -> None:
-        self._is_terminal = sys.stderr.isatty()
-        self._shown = time.monotonic()
-        self._is_shown = False
-
-    def __enter__(self) -> "SeekingDisplay":
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
-        if self._is_shown and self._is_terminal:
-            click.echo("\r\x1b[K", nl=False, err=True)
-
-    def __call__(self, flights: int) -> None:
-        now = time.monotonic()
-        if now - self._shown < (_BAR_SECONDS if self._is_terminal else _LINE_SECONDS):
-            return
-        self._shown, self._is_shown = now, True
-        text = f"seeking causes and conditions: {flights} flights"
-        if self._is_terminal:
-            click.echo(f"\r\x1b[K{text}", nl=False, err=True)
-        else:
-            click.echo(text, err=True)
 
 
 def _progress_text(progress: Progress, confidence: float) -> str:

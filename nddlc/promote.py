@@ -7,8 +7,7 @@ import click
 
 from checker.batch.store import LATEST
 from checker.regression import RegressionCase, RegressionError, cases_text, read_cases, regressions_path
-from nddlc.check import STORE
-from nddlc.inputs import Unusable, write_text
+from nddlc.inputs import STORE, Unusable, write_text
 from nddlc.shrink import shrunk_lines, shrunk_mission
 from nddlc.trust import trust_option
 

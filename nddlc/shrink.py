@@ -13,9 +13,8 @@ from checker.rendering import failure_text
 from checker.sampling.rendering import number
 from checker.shrink import Shrunk
 from nddl_lang.text.values import json_text
-from nddlc.check import STORE
 from nddlc.explain import campaign_of
-from nddlc.inputs import Unusable
+from nddlc.inputs import STORE, Unusable
 from nddlc.trust import trust_option
 
 

@@ -8,8 +8,7 @@ import click
 from checker.batch.salvage import StoreDamage, examine, salvage
 from checker.batch.store import StoreError
 from nddl_lang.text.values import json_text
-from nddlc.check import STORE
-from nddlc.inputs import Unusable
+from nddlc.inputs import STORE, Unusable
 
 _WHOLE, _DAMAGED = 0, 1
 _MOST_SHOWN = 20

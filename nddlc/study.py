@@ -14,9 +14,9 @@ from checker.report.study import study_data, study_page, study_svg, study_text
 from checker.study.cells import StudyCell, campaign_of, cell_of, lay_out, with_beyond
 from checker.study.reading import StudyFile, Variant, read_study
 from nddl_lang.text.render import render
-from nddlc.check import STORE, cores
+from nddlc.check import cores
 from nddlc.fitting import colours
-from nddlc.inputs import Unusable, readable, write_text
+from nddlc.inputs import STORE, Unusable, readable, write_text
 from nddlc.mission_trust import models_of
 from nddlc.progress import Display
 from nddlc.trust import trust_option

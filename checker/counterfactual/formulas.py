@@ -17,11 +17,13 @@ _TOKEN = re.compile(r"[A-Za-z_][\w.]*|\d[\w.]*|[-+*/()]|[^\s\w]")
 _CALL = re.compile(r"\s*(\w+)\s*\((.*)\)\s*;", re.DOTALL)
 _ROUNDING = ("ceil", "floor", "round")
 _OPERATORS = "+-*/"
-_SUM, _ROUND, _NUMBER, _CONSTANT, _NAME = "sum", "rounded", "number", "constant", "name"
+_SUM, _ROUND, _NUMBER, _CONSTANT, _NAME, _SCALE = "sum", "rounded", "number", "constant", "name", "scale"
+_SCALING = re.compile(r"(?<![a-z])(?:rate|per|speed|factor|ratio|share|scale)(?![a-z])", re.IGNORECASE)
 # How often operands of two sorts are joined, before any line of the model is read.
 _USUAL = {
     _ROUND: {"+": 4.0, "-": 1.0, "*": 0.3, "/": 0.1},
     _CONSTANT: {"+": 2.0, "-": 1.5, "*": 2.0, "/": 0.7},
+    _SCALE: {"+": 0.5, "-": 0.5, "*": 3.0, "/": 3.0},  # a rate or share is multiplied or divided
     _NUMBER: {"+": 2.0, "-": 1.5, "*": 3.0, "/": 1.0},
     _NAME: {"+": 2.0, "-": 1.5, "*": 2.0, "/": 1.0},
 }
@@ -46,6 +48,11 @@ class Formulas:
     def odds(self, edit: SmallEdit, site: EditSite) -> float:
         """Logarithm of how much likelier a line is meant as it is than as an edit leaves it, within bounds."""
         return _within(self._joined(edit, site))
+
+    def adds_scale(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether an edit writes a sign before or behind a rate or share, which is hardly added to anything."""
+        after = self._pairs(site.after(edit))
+        return any(self._sort(one) == _SCALE and one[1] == edit.new for one in after)
 
     def place_odds(self, edit: SmallEdit, site: EditSite) -> float:
         """The same of the order of arguments or operands, by their places in other calls, too."""
@@ -99,7 +106,9 @@ class Formulas:
 
     def _sort(self, pair: _Pair) -> str:
         kinds = {self._kind(pair[0]), self._kind(pair[2])}
-        return next(one for one in (_ROUND, _NUMBER, _CONSTANT, _NAME) if one in kinds)
+        sort = next(one for one in (_ROUND, _NUMBER, _CONSTANT, _NAME) if one in kinds)
+        is_scale = any(one in self._constants and _SCALING.search(one) is not None for one in (pair[0], pair[2]))
+        return _SCALE if is_scale and sort == _CONSTANT else sort
 
     def _kind(self, word: str) -> str:
         if word in (_ROUND, _SUM):

@@ -52,6 +52,7 @@ _LAST_USE = 2.0  # odds that a constant is not declared for nothing
 _KIN_SOON = -0.2  # when a constant is tried that belongs better into a line
 _TWIN = 1.0  # odds of a line that is then written as another line is
 _TWIN_SOON = 0.6  # and how much sooner that is tried
+_SENSE = 2.0  # odds that a line is not meant as it stands, which holds what cannot be compared
 _LIMITED = 1.0  # how much the odds count of a time that is held to a bare constant
 _NAMED = 2.0  # odds of the comparison that a constant's name asks for
 _MIXED, _UNMIXED = 3.0, 0.5  # of a line that holds a moment to a duration, and of one that does so no more
@@ -233,7 +234,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return _UNMIXED
         case EditKind.RELATION | EditKind.COMPARISON | EditKind.SIGN:
             freed = _FREED * usage.mentions.frees(edit, site)
-            return 1.0 + _UNUSUAL * usage.odds(edit, site) + freed
+            scale = _SENSE * (edit.kind is EditKind.SIGN and usage.formulas.adds_scale(edit, site))
+            return 1.0 + scale + _UNUSUAL * usage.odds(edit, site) + freed
         case EditKind.LIMIT:
             belongs = _KIN * usage.gain(edit, site) - _LAST_USE * usage.strands(edit)
             belongs += _AGREES * ((edit.begin, edit.new) in site.agreeing)
@@ -280,6 +282,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return _VALUE + _LAST_CASE * usage.strands_value(edit, site) - cases
         case EditKind.NAME | EditKind.POINT | EditKind.TOKEN:
             usual = _LIMITED * usage.limits.odds(edit, site)
+            usual += _SENSE * (site.is_apart and (edit.begin, edit.new) in site.agreeing)
             return 2.0 - usage.fitness(edit, site) - _SIBLING * usage.siblings.completes(edit, site) - usual
         case _:
             return 1.0
@@ -319,7 +322,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.SIGN if edit.new not in SIGNED["sum"]:
             return 0.0  # few write a number below zero
         case EditKind.SIGN:
-            return 0.5 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
+            scale = _SENSE * usage.formulas.adds_scale(edit, site)
+            return 0.5 + scale + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
         case EditKind.ARGUMENTS if usage.directions.is_put_in_order(edit, site):
             return -1.0  # seen without any flight
         case EditKind.ARGUMENTS:
@@ -342,6 +346,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return _REPEATED_SOON if is_alike else soon + _LATER * usage.passing
         case EditKind.NAME if usage.mentions.says_the_same(edit, site):
             return _LATE
+        case EditKind.NAME if site.is_apart and (edit.begin, edit.new) in site.agreeing:
+            return -1.0 - 0.1 * usage.fitness(edit, site)
         case EditKind.NAME:
             fitness = usage.fitness(edit, site)
             is_set = usage.mentions.is_set_by(edit, site)

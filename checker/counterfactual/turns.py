@@ -16,6 +16,8 @@ _BESIDE = 0.5  # how much of the wait is left for an edit of a line beside one t
 _IDLE = 0.8  # how much later the edits of a line are tried that has no part in the failure
 _ENDLESS = 3.0  # how much later what may leave a search without an end, as it did elsewhere
 
+_COMPUTING = (EditKind.FORMULA, EditKind.OPERATOR, EditKind.SIGN)
+
 _Entry = tuple[float, int, Candidate, SmallEdit]
 
 
@@ -79,4 +81,6 @@ class Turns:
 
 
 def _is_doubtful(edit: SmallEdit, place: int | None) -> bool:
+    if place is not None and edit.kind in _COMPUTING:  # a quotient is small where a product is large
+        return False
     return place in (None, edit.begin) and not (edit.kind is EditKind.RELATION and edit.new == inverse_of(edit.old))

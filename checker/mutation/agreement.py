@@ -42,20 +42,27 @@ class Agreement:
             yield node.right.span, left
 
     def others(self, node: Any, names: LineScope) -> Iterator[tuple[Span, str]]:
-        """What may be named on one side of `==` in place of what cannot be compared with the other."""
-        if not (isinstance(node, BinaryExpr) and isinstance(node.left, PathExpr) and isinstance(node.right, PathExpr)):
-            return
-        sides = {span: self.kind_of(span.text, names) for span in (node.left.span, node.right.span)}
-        for span, kind in self.wanted(node, names):
-            other = next(one for one in sides if one is not span)
-            if _is_apart(other.text, kind, span.text, sides[span]):
+        """What may be named on one side of `==` in place of what cannot be compared with the other.
+
+        A parameter of a token that is held to a duration is to be said, so the duration is what is mistaken.
+        """
+        wanted = dict(self.wanted(node, names)) if self.is_apart(node, names) else {}
+        for span, kind in wanted.items():
+            other = next(one for one in wanted if one is not span)
+            if kind != _SPAN:
                 yield from ((span, name) for name in self._named(kind, names) if name != other.text)
 
+    def is_apart(self, node: Any, names: LineScope) -> bool:
+        """Whether two names stand on both sides of `==` that can hardly be compared."""
+        if not (isinstance(node, BinaryExpr) and isinstance(node.left, PathExpr) and isinstance(node.right, PathExpr)):
+            return False
+        wanted = [(span.text, self.kind_of(span.text, names)) for span, _ in self.wanted(node, names)]
+        return bool(wanted) and _is_apart(*wanted[0], *wanted[1])
+
     def _named(self, kind: str, names: LineScope) -> Iterator[str]:
-        if kind in (_MOMENT, _SPAN):
-            words = _MOMENTS if kind == _MOMENT else (_SPAN,)
+        if kind == _MOMENT:
             labels = ("", *(label for label, shape in names.tokens.items() if not shape.is_event))
-            yield from (f"{label}.{word}" if label else word for word in words for label in labels)
+            yield from (f"{label}.{word}" if label else word for word in _MOMENTS for label in labels)
         else:
             yield from (name for name in names.alike(kind) if names.type_of(tuple(name.split("."))) == kind)
 

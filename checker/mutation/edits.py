@@ -112,7 +112,7 @@ class EditSite:
     A branch has the lines of its condition. `scope` are the lines of the whole rule. `named` is the global variable
     that is set here, a number if `is_number`; `is_rule`: it is the head of a rule, for which something may be missing.
     `begin` is its offset. `agreeing` edits, each by its offset and what it writes, give both sides of `==` one type.
-    `coded` is the constraint of the project's own that it calls, which is Python.
+    `is_apart`: the two can hardly be compared. `coded` is the constraint of the project's own that it calls, in Python.
     """
 
     file: str
@@ -129,6 +129,7 @@ class EditSite:
     is_number: bool = False
     coded: str = ""
     agreeing: frozenset[tuple[int, str]] = frozenset()
+    is_apart: bool = False
 
     def holds(self, file: str, line: int) -> bool:
         """Whether a place is one of its lines."""
@@ -256,6 +257,7 @@ class _Reader:
             is_number=named in self._limits,
             coded=node.name.name if isinstance(node, CallConstraint) and node.name.name not in CONSTRAINTS else "",
             agreeing=self._agreeing(node, names, edits),
+            is_apart=isinstance(node, ExprConstraint) and self._types.is_apart(node.expression, names),
         )
 
     def _agreeing(self, node: Any, names: LineScope, edits: Iterable[SmallEdit]) -> frozenset[tuple[int, str]]:

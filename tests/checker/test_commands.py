@@ -11,7 +11,7 @@ from checker.batch.result import read_record, write_record
 from checker.batch.store import open_store
 from checker.batch.worker import Load
 from checker.counterfactual.ranking import Causes
-from nddlc.check import STORE
+from nddlc.inputs import STORE
 from nddlc.main import run
 from tests.checker.fake_agent import load_broken, load_split, load_troubled
 

@@ -4,9 +4,11 @@ from pathlib import Path
 
 import pytest
 
+from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.moments import with_durations
 from checker.counterfactual.smallness import Usage, cost_of, delay_of, usage_of
+from checker.counterfactual.turns import Turns
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
 from checker.mutation.variant import load_graph
 from compiler.lower import compile_model
@@ -134,3 +136,24 @@ def test_beside_a_line_are_the_numbers_that_the_lines_beside_it_read(path: Path,
     (site,) = (site for site in sites if site.text == "turn.tonnes == kept;")
     assert "WASTE" in {one.named for one in graph.beside(site)}
     assert {one.file for one in graph.beside(site)} == {str(real_path(path))}
+
+
+def test_a_rate_is_multiplied_or_divided_and_hardly_added(tmp_path: Path) -> None:
+    path = tmp_path / "m.nddl"
+    text = MODEL.replace("WASTE", "DRIP_RATE").replace("tonnes * DRIP_RATE", "tonnes - DRIP_RATE")
+    path.write_text(text, encoding="utf-8")
+    sites = sites_of(load_graph(path, ()))
+    usage, found = usage_of(sites), edits(sites, "kept == tonnes - DRIP_RATE;")
+    divided, added = found["kept == tonnes / DRIP_RATE;"], found["kept == tonnes + DRIP_RATE;"]
+    assert cost_of(*divided, usage) < cost_of(*added, usage)
+
+
+def test_a_product_that_fails_alike_does_not_speak_against_a_quotient(sites: list[EditSite]) -> None:
+    found = edits(sites, "kept == tonnes * WASTE;")
+    (times, site), (renamed, _) = found["kept == tonnes / WASTE;"], found["kept == load * WASTE;"]
+    turns = Turns(lambda _: ())
+    candidate = Candidate(site, 0.0, Suspicion.CONFLICT)
+    for edit in (times, renamed):
+        turns.add(0.0, candidate, edit)
+        turns.doubt(site, edit.begin)
+    assert [turns.pop()[2] for _ in range(2)] == [times, renamed]

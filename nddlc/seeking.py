@@ -1,0 +1,37 @@
+"""Show how many flights were made to find out why missions fail, on standard error."""
+
+import sys
+import time
+from types import TracebackType
+
+import click
+
+BAR_SECONDS = 0.2  # between two looks on a terminal
+LINE_SECONDS = 4.0  # between two plain lines
+
+
+class SeekingDisplay:
+    """A call shows how many flights were made to find out why missions fail, unless that was done just now."""
+
+    def __init__(self) -> None:
+        self._is_terminal = sys.stderr.isatty()
+        self._shown = time.monotonic()
+        self._is_shown = False
+
+    def __enter__(self) -> "SeekingDisplay":
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
+        if self._is_shown and self._is_terminal:
+            click.echo("\r\x1b[K", nl=False, err=True)
+
+    def __call__(self, flights: int) -> None:
+        now = time.monotonic()
+        if now - self._shown < (BAR_SECONDS if self._is_terminal else LINE_SECONDS):
+            return
+        self._shown, self._is_shown = now, True
+        text = f"seeking causes and conditions: {flights} flights"
+        if self._is_terminal:
+            click.echo(f"\r\x1b[K{text}", nl=False, err=True)
+        else:
+            click.echo(text, err=True)
