@@ -43,6 +43,9 @@ def child_step(child: Child, names: VariableNames) -> Step:
             key = next(frame.children, NOBODY)
         tok = bench.tokens.get(key)
         if key == NOBODY:
+            if not _may_be_missing(bench, child, pairs, parent, frame.tokens[origin]):
+                bench.report("child", label, (parent,), (), "asked for", "not on record", child.span)
+                return
             bench.skip("a child is not on record")
             return
         if tok is None:
@@ -76,6 +79,17 @@ def child_step(child: Child, names: VariableNames) -> Step:
         _relate(frame, child.relation, pairs, first, tok, child.span)
 
     return step
+
+
+def _may_be_missing(
+    bench: Bench, child: Child, pairs: tuple[tuple[int, int, float, float], ...], parent: Tok, origin: Tok | None
+) -> bool:
+    """Whether a running rule may have lost a child: to a repair, with its reactor, or outside of the mission."""
+    if bench.last_repair >= 0 or bench.has_failed or not parent.is_planned or parent.is_outdated:
+        return True
+    if ends_of(parent.values[END])[1] <= 0 or ends_of(parent.values[START])[0] >= bench.final_tick:
+        return True
+    return may_be_outside(bench, child, pairs, origin)
 
 
 def _is_due(bench: Bench, origin: Tok, tok: Tok, pairs: tuple[tuple[int, int, float, float], ...]) -> bool:

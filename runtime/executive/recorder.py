@@ -64,6 +64,13 @@ _OF_KIND = {
 }
 
 
+def _either(one: Value, other: Value) -> ValueRange:
+    """The range of two times, each known or a range."""
+    first = one if isinstance(one, ValueRange) else ValueRange(one, one)  # type: ignore[arg-type]
+    second = other if isinstance(other, ValueRange) else ValueRange(other, other)  # type: ignore[arg-type]
+    return ValueRange(min(first.lower, second.lower), max(first.upper, second.upper))
+
+
 class Recorder:
     """The record of one reactor while its mission is flown."""
 
@@ -136,6 +143,9 @@ class Recorder:
             left = self.tokens[key]
             if (left.state, left.start) != (one.state, one.start):
                 self.tokens[key] = one
+            elif left.end != one.end:  # of the tick that was lost it is not known whether it went on
+                length = _either(left.duration, one.duration)
+                self.tokens[key] = left._replace(end=_either(left.end, one.end), duration=length)
         plan, forms, program = self.plan, self.forms, self.database.program
         things = []
         for o, name in enumerate(self.database.objects.names):

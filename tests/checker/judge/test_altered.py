@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from runtime.executive.record import ValueRange
+from runtime.executive.record import NOBODY, ValueRange
 from tests.checker.judge.corruption import ALTERATIONS, again, executed, put
 from tests.checker.judge.missions import MISSIONS, walking
 from tests.executive.flying import Flown
@@ -47,3 +47,13 @@ def test_a_right_mission_raises_no_alarm_and_little_is_left_open(name: str) -> N
         report = MISSIONS[name](seed).report
         assert report.holds
         assert report.judged > 100 and report.open < report.judged / 10
+
+
+def test_a_child_that_a_rule_has_run_without_is_noticed() -> None:
+    mission = MISSIONS["cooking"](1)
+    reactor = mission.record.reactors[0]
+    at = next(k for k in executed(reactor) if reactor.tokens[k].predicate == "Chef.Cook")
+    (run,) = reactor.tokens[at].runs
+    without = run._replace(children=(NOBODY, *run.children[1:]))
+    report = again(put(mission, 0, at, reactor.tokens[at]._replace(runs=(without,))))
+    assert [(one.kind, one.name, one.found) for one in report.disagreements] == [("child", "h", "not on record")]
