@@ -12,7 +12,8 @@
 #   make fuzz         the property tests with many more examples, and MUTATIONS (1000000) mutations of texts
 #   make sampling-study  BATCHES (10000) simulated batches per sampler: how often each interval covers the true rate
 #   make alarm-study  FLIGHTS (11000) right missions and plans of every kind, judged: the judge objects to none
-#   make judge-study  FAULTS (1000) faults in the source of the engine, flown, and put to the judge and to an oracle
+#   make judge-study  FAULTS (1000) faults of fixed schemes, and as many in the source of the engine, flown, and put to the
+#                     judge and to an oracle
 #   make conflict-study  FAILURES (1000) failing missions of mutants of all models: z3 confirms each conflict, and needs each part
 #   make controllability-proof  NETWORKS (10000) small networks beside the game against the vehicle, played to its end
 #   make study        CELL (200) missions of each cell of the founding paper's study, what they show, adaptive sampling of B2,
@@ -145,6 +146,7 @@ alarm-study: build
 FAULTS := 1000
 
 judge-study: setup
+	NDDLC_INTERPRETED=1 $(BIN)/python -m tests.checker.judge.placed_study $(FAULTS)
 	NDDLC_INTERPRETED=1 $(BIN)/python -m tests.checker.judge.judge_study $(FAULTS)
 
 FAILURES := 1000

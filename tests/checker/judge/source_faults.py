@@ -1,12 +1,17 @@
-"""Small faults in the source of the engine: one node of a syntax tree changed, and the function compiled anew."""
+"""Small faults in the source of the engine: one node of a syntax tree changed, and the function compiled anew.
+
+A fault is there always, or only at some of the moments at which its node is reached: then the mission goes on for
+longer, and what it does is nearer to what is right.
+"""
 
 import ast
-import gc
-from collections.abc import Iterator
+import builtins
+from collections.abc import Callable, Iterator
 from copy import deepcopy
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import count
 from pathlib import Path
-from random import Random
 from types import CodeType, FunctionType
 
 _OTHER_TESTS: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
@@ -24,26 +29,55 @@ _OTHER_TESTS: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
 _SIDES = [("lower", "upper"), ("start", "end"), ("START", "END"), ("LOWER", "UPPER"), ("min", "max"), ("first", "last")]
 
 
+_NOW = "__fault_is_there__"  # a name among the built-in ones: a function can be given no other global
+_MOMENTS: dict[str, Callable[[int, int], bool]] = {
+    "always": lambda _count, _nth: True,
+    "once": lambda count, nth: count == nth,
+    "from then on": lambda count, nth: count >= nth,
+    "now and then": lambda count, nth: count % (nth + 1) == 0,
+}
+MOMENTS = tuple(_MOMENTS)
+
+
 @dataclass(frozen=True, slots=True)
-class SourceFault:
-    """A changed function: where it is found among those that are loaded, what was changed, and its new code."""
+class Place:
+    """A node of a file, in a function, and what may take its place."""
 
     file: str
     line: int
     function: str
-    kind: str
+    change: str
+    text: str  # of what is changed
+    spot: int  # place of the node in the walk through the tree
+    new: ast.AST
+
+
+@dataclass(frozen=True, slots=True)
+class SourceFault:
+    """A changed function: where it is, when it is changed, and its new code."""
+
+    place: Place
+    moment: str
+    nth: int
     code: CodeType
 
-    def put_in_place(self) -> None:
-        """Have the function run the changed code, wherever it was imported to."""
-        for each in gc.get_objects():
-            if (
-                isinstance(each, FunctionType)
-                and each.__code__.co_qualname == self.function
-                and each.__code__.co_firstlineno == self.code.co_firstlineno
-                and each.__code__.co_filename == self.code.co_filename
+    def put_in_place(self, functions: list[FunctionType]) -> None:
+        """Have those of these functions that it is about run the changed code, from now on counted anew."""
+        self.count_anew()
+        for each in functions:
+            old = each.__code__
+            if (old.co_qualname, old.co_firstlineno, old.co_filename) == (
+                self.code.co_qualname,
+                self.code.co_firstlineno,
+                self.code.co_filename,
             ):
                 each.__code__ = self.code
+
+    def count_anew(self) -> None:
+        """Begin to count the moments."""
+        counts = count(1)
+        is_there = _MOMENTS[self.moment]
+        setattr(builtins, _NOW, lambda: is_there(next(counts), self.nth))
 
 
 def _swapped(name: str) -> str | None:
@@ -54,8 +88,8 @@ def _swapped(name: str) -> str | None:
     return None
 
 
-def _changes(node: ast.AST) -> Iterator[tuple[str, ast.AST]]:
-    """What may take the place of a node, with the kind of fault that it is."""
+def _changes(node: ast.AST, tells: bool) -> Iterator[tuple[str, ast.AST]]:
+    """What may take the place of a node, with the kind of change; `tells`: its function says whether it succeeded."""
     match node:
         case ast.Compare(ops=[op]) if type(op) in _OTHER_TESTS:
             for other in _OTHER_TESTS[type(op)]:
@@ -84,6 +118,10 @@ def _changes(node: ast.AST) -> Iterator[tuple[str, ast.AST]]:
             yield "change left out", ast.Pass()
         case ast.Assign(targets=[ast.Attribute() | ast.Subscript()]):
             yield "change left out", ast.Pass()
+        case ast.Return(value=ast.Call()) if tells:
+            yield "taken as done", ast.Return(ast.Constant(True))
+        case ast.If(test=ast.UnaryOp(op=ast.Not(), operand=ast.Call()), body=[ast.Return()], orelse=[]) if tells:
+            yield "taken as done", ast.Pass()
         case ast.If(test=test):
             new_if = deepcopy(node)
             new_if.test = ast.UnaryOp(ast.Not(), deepcopy(test))
@@ -98,9 +136,9 @@ def _changes(node: ast.AST) -> Iterator[tuple[str, ast.AST]]:
                 new_loop = deepcopy(node)
                 new_loop.iter = ast.Subscript(items, deepcopy(step), ast.Load())
                 yield kind, new_loop
-        case ast.Name(id=name) if (side := _swapped(name)) is not None:
+        case ast.Name(id=name, ctx=ast.Load()) if (side := _swapped(name)) is not None:
             yield "side", ast.Name(side, node.ctx)
-        case ast.Attribute(attr=name) if (side := _swapped(name)) is not None:
+        case ast.Attribute(attr=name, ctx=ast.Load()) if (side := _swapped(name)) is not None:
             yield "side", ast.Attribute(deepcopy(node.value), side, node.ctx)
         case ast.Call(args=[first, second, *rest]):
             new_call = deepcopy(node)
@@ -122,44 +160,67 @@ class _Exchange(ast.NodeTransformer):
         return ast.copy_location(self.new, node) if node is self.old else self.generic_visit(node)
 
 
-class FaultySource:
-    """The faults that the lines of one file can have."""
+def _at_moments(old: ast.AST, new: ast.AST) -> ast.AST:
+    """The new one at the moments of the fault, else the old one."""
+    now = ast.Call(ast.Name(_NOW, ast.Load()), [], [])
+    if isinstance(old, ast.stmt):
+        assert isinstance(new, ast.stmt)
+        return ast.If(now, [new], [deepcopy(old)])
+    assert isinstance(old, ast.expr) and isinstance(new, ast.expr)
+    return ast.IfExp(now, new, deepcopy(old))
 
-    def __init__(self, file: str, lines: set[int]) -> None:
+
+class FaultySource:
+    """The faults that one file can have."""
+
+    def __init__(self, file: str) -> None:
         self.file = file
         self.tree = ast.parse(Path(file).read_text(encoding="utf-8"))
-        self.places = [
-            (node, kind, new)
-            for node in ast.walk(self.tree)
-            if getattr(node, "lineno", 0) in lines
-            for kind, new in _changes(node)
+
+    @cached_property
+    def places(self) -> list[Place]:
+        """Every node of a function or method that can be changed, with each of its changes."""
+        spots = {node: spot for spot, node in enumerate(ast.walk(self.tree))}
+        return [
+            Place(
+                self.file, getattr(node, "lineno", 0), name, change, ast.unparse(node).split("\n")[0], spots[node], new
+            )
+            for name, function in _functions(self.tree, "")
+            for statement in function.body
+            for node in ast.walk(statement)
+            for change, new in _changes(node, _tells(function))
         ]
 
-    def fault(self, dice: Random) -> SourceFault | None:
-        """One of them; None where the dice choose what is in no function, or cannot be compiled."""
-        kind = dice.choice(sorted({kind for _, kind, _ in self.places}))
-        node, _, new = dice.choice([one for one in self.places if one[1] == kind])
-        spot = next(k for k, each in enumerate(ast.walk(self.tree)) if each is node)
+    def fault(self, place: Place, moment: str, nth: int) -> SourceFault | None:
+        """The fault of a place; None where the changed function cannot be compiled."""
         tree = deepcopy(self.tree)
-        old = next(each for k, each in enumerate(ast.walk(tree)) if k == spot)
+        old = next(each for spot, each in enumerate(ast.walk(tree)) if spot == place.spot)
         try:
-            _Exchange(old, deepcopy(new)).visit(tree)
+            _Exchange(old, _at_moments(old, deepcopy(place.new))).visit(tree)
             whole = compile(ast.fix_missing_locations(tree), self.file, "exec")
         except (SyntaxError, ValueError, TypeError):
             return None
-        line: int = getattr(node, "lineno", 0)
-        inside = [code for code in _functions(whole) if code.co_firstlineno <= line]
-        if not inside:
-            return None
-        code = max(inside, key=lambda one: one.co_firstlineno)
-        return SourceFault(self.file, line, code.co_qualname, kind, code)
+        code = next(code for code in _codes(whole) if code.co_qualname == place.function)
+        return SourceFault(place, moment, nth, code)
 
 
-def _functions(code: CodeType) -> Iterator[CodeType]:
+def _tells(function: ast.FunctionDef) -> bool:
+    return isinstance(function.returns, ast.Name) and function.returns.id == "bool"
+
+
+def _functions(tree: ast.Module | ast.ClassDef, above: str) -> Iterator[tuple[str, ast.FunctionDef]]:
+    for each in tree.body:
+        if isinstance(each, ast.FunctionDef):
+            yield above + each.name, each
+        elif isinstance(each, ast.ClassDef):
+            yield from _functions(each, f"{above}{each.name}.")
+
+
+def _codes(code: CodeType) -> Iterator[CodeType]:
     """The functions of a module and the methods of its classes."""
     for each in code.co_consts:
         if isinstance(each, CodeType):
             if each.co_flags & 1:  # CO_OPTIMIZED: a function, not the body of a class
                 yield each
             else:
-                yield from _functions(each)
+                yield from _codes(each)
