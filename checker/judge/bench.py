@@ -112,6 +112,9 @@ class _Toks:
             tok.values = standing.values
 
 
+RuleUse = tuple[Value, Value, Value, Value, Tok | None, Span]  # resource, quantity, start, end, user, line
+
+
 class Bench:
     """Everything that is judged of one reactor."""
 
@@ -128,7 +131,7 @@ class Bench:
         for thing in record.objects:
             self.members[thing.name] = (thing.class_name, thing.members)
         self.tokens = _Toks(record.tokens)
-        self.uses: list[tuple[Value, Value, Value, Value, Tok | None, Span]] = []  # resource, quantity, start, end
+        self.uses: list[RuleUse] = []
         self.last_repair = -1  # the tick of the last one
         self.infers = False  # whether runs that are not on record are found out
         self.runs: dict[int, list[BodyRun]] = {}  # those that were

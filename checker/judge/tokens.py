@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
-from checker.judge.bench import Bench, Tok, lasting
+from checker.judge.bench import Bench, RuleUse, Tok, lasting
 from checker.judge.bodies import Written
 from checker.judge.bulk_tokens import BulkJudge, judge_in_bulk
 from checker.judge.choosing import MOST_TRIES, Choosing
@@ -150,17 +150,18 @@ def _judge_token(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
 
 
 def _find_run(bench: Bench, tok: Tok, number: int, rule: RuleJudge) -> None:
-    """Judge a rule whose run nobody recorded: under some choice of its children all of it must hold."""
+    """Judge a rule whose run nobody recorded: under some choice of its children all of it must hold.
+
+    If it does under none, that choice is told of which the fewest children are missing and, then, the least is wrong.
+    """
     choosing = Choosing(number)
-    before = len(bench.found)
-    first: list[Disagreement] = []
-    run = choosing.run()
+    before, uses = len(bench.found), len(bench.uses)
+    best: tuple[tuple[int, int], list[Disagreement], list[RuleUse], BodyRun] | None = None
     for tries in range(MOST_TRIES):
         choosing.begin()
         choosing.known.clear()
         frame = BodyFrame(bench, tok, [UNKNOWN] * rule.slots, [tok, *[None] * rule.tokens])
         frame.choosing = choosing
-        uses = len(bench.uses)
         for _ in range(2):  # the second time with the locals that the first has found
             del bench.found[before:]
             del bench.uses[uses:]
@@ -170,16 +171,20 @@ def _find_run(bench: Bench, tok: Tok, number: int, rule: RuleJudge) -> None:
         if len(bench.found) == before:
             bench.runs.setdefault(tok.key, []).append(choosing.run())
             return
-        if not first:
-            first, run = bench.found[before:], choosing.run()
+        wrong = sum(one.kind == "child" for one in bench.found[before:]), len(bench.found) - before
+        if best is None or wrong < best[0]:
+            best = wrong, bench.found[before:], bench.uses[uses:], choosing.run()
         del bench.found[before:]
+        del bench.uses[uses:]
         if not choosing.advance():
             break
         if tries == MOST_TRIES - 1:
             bench.skip("a rule with too many choices")
             return
-    bench.found += first
-    bench.runs.setdefault(tok.key, []).append(run)
+    assert best is not None
+    bench.found += best[1]
+    bench.uses += best[2]
+    bench.runs.setdefault(tok.key, []).append(best[3])
 
 
 def _has_fired(bench: Bench, tok: Tok, known: PredicateJudge, runs: tuple[BodyRun, ...]) -> bool:

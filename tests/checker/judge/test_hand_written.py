@@ -102,3 +102,27 @@ def test_a_plan_is_judged_by_what_its_model_says(
     plan = tmp_path / "plan.json"
     plan.write_text(json.dumps({"model": "m.nddl", "last_tick": 20, "tokens": tokens}))
     assert run(["validate", str(plan)]) == (0 if holds else 1)
+
+
+TWICE = """A::p { contains(B.r first); first.start == start; first.k == n;
+contains(B.r second); first before second; second.k == n + 1; second.end == end; }"""
+
+
+@pytest.mark.parametrize(
+    ("tokens", "said"),
+    [
+        ([p(), r(0, 4), r(6, 10, 2)], []),
+        ([p(), r(0, 4), r(6, 10, 7)], ["`second.k == n + 1` does not hold (A.p#0): n = 1, second.k = 7, computed = 2"]),
+        ([p(), r(0, 4), r(6, 9, 2)], ["`second.end == end` does not hold (A.p#0): second.end = 9, end = 10"]),
+        ([p(), r(0, 4, 3), r(6, 10, 2)], ["`first.k == n` does not hold (A.p#0): first.k = 3, n = 1"]),
+    ],
+)
+def test_of_two_tokens_that_are_alike_the_wrong_place_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], tokens: list[Token], said: list[str]
+) -> None:
+    (tmp_path / "m.nddl").write_text(MODEL.format(rules=TWICE, objects=""))
+    plan = tmp_path / "plan.json"
+    plan.write_text(json.dumps({"model": "m.nddl", "last_tick": 20, "tokens": tokens}))
+    assert run(["validate", str(plan)]) == (1 if said else 0)
+    told = [line for line in capsys.readouterr().out.splitlines() if line.startswith("plan: ")]
+    assert [line.split(": ", 2)[2] for line in told] == said
