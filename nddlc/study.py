@@ -72,26 +72,24 @@ def command(
             flight.base(variant)
         click.echo(_plan_text(chosen, wanted, missions))
         return _DONE
-    cells: list[StudyCell] = []
-    ended_by = 0
     try:
         with open_store(store_path) as store:
-            for variant in chosen:
-                base = flight.base(variant)
-                for sampling in wanted:
-                    cell, ended_by = flight.fly(base, variant, sampling, missions, store, stops=bool(ended_by))
-                    cells.append(cell)
+            cells, ended_by = flight.fly_all(chosen, wanted, missions, store)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
     cells = list(with_beyond(cells))
+    if ended_by:
+        click.echo(study_text(study, cells) if style == "text" else study_data(study, cells), nl=False)
+        click.echo(
+            "\nended by a signal: the same command goes on, and draws the figure when it comes to its end", err=True
+        )
+        return _SIGNALLED + ended_by
     reports = {"study.json": study_data(study, cells), "figure12.svg": study_svg(study, cells)}
     for name, text in {**reports, "study.html": study_page(study, cells)}.items():
         write_text(output / name, text, "--output names a folder; what was flown is kept in --store")
     click.echo(study_text(study, cells) if style == "text" else reports["study.json"], nl=False)
     if style == "text":
         click.echo(f"\nfigure: {output / 'study.html'} (beside it figure12.svg, study.json)")
-    if ended_by > 0:
-        return _SIGNALLED + ended_by
     is_off = any(one.errors or one.is_expected(study.corridor) is False for one in cells)
     return _FINDINGS if is_off else _DONE
 
@@ -134,17 +132,28 @@ class _Study:
             raise Unusable(f"the models of variant `{variant.name}` are in error")
         return Campaign(mission, models, pinned(models))
 
-    def fly(
-        self, base: Campaign, variant: Variant, sampling: str, missions: int | None, store: RunStore, *, stops: bool
-    ) -> tuple[StudyCell, int]:
-        """Fly what a cell lacks, unless the study `stops`; the cell, and the signal that ended it.
+    def fly_all(
+        self, variants: list[Variant], samplings: list[str], missions: int | None, store: RunStore
+    ) -> tuple[list[StudyCell], int]:
+        """The cells, up to the one that a signal has ended; the signal, 0 where none came."""
+        cells: list[StudyCell] = []
+        for variant in variants:
+            base = self.base(variant)
+            for sampling in samplings:
+                cell, ended_by = self._fly(base, variant, sampling, missions, store)
+                cells.append(cell)
+                if ended_by:
+                    return cells, ended_by
+        return cells, 0
 
-        That is -1 where no time was left.
-        """
+    def _fly(
+        self, base: Campaign, variant: Variant, sampling: str, missions: int | None, store: RunStore
+    ) -> tuple[StudyCell, int]:
+        """Fly what a cell lacks, unless no time is left; the cell, and the signal that ended it."""
         campaign = campaign_of(self.study, variant, sampling, base)
         left = None if self.until is None else self.until - time.monotonic()
-        if stops or (left is not None and left <= 0.0):
-            return cell_of(variant, sampling, variant.missions, store.results(campaign.run.id)), -1
+        if left is not None and left <= 0.0:
+            return cell_of(variant, sampling, variant.missions, store.results(campaign.run.id)), 0
         enough = Enough(seconds=left, missions=missions)
         with ExitStack() as stack:
             click.echo(f"{variant.name}, {sampling}", err=True)

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import signal
 from dataclasses import replace
 from pathlib import Path
 from statistics import NormalDist
@@ -10,11 +11,13 @@ from xml.etree import ElementTree
 import jsonschema
 import pytest
 
+from checker.batch.progress import Progress
 from checker.sampling.seeds import mission_seed
 from checker.schemas import schema
 from checker.study.cells import StudyCell, findings_of, with_beyond
 from checker.study.reading import Variant, read_study
 from nddlc.main import run
+from nddlc.progress import Display
 from runtime.executive.chance import draw
 
 GPS = Path("models/gps").resolve()
@@ -100,6 +103,25 @@ def test_more_missions_are_added_to_what_was_flown(folder: Path, capsys: pytest.
     more = json.loads(Path("nddlc-study/study.json").read_text())
     assert [one["missions"] for one in more["cells"]] == [5, 5]
     assert "not flown yet" in capsys.readouterr().out
+
+
+@pytest.mark.once
+def test_a_signal_ends_a_study_at_once(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    seen = []
+
+    class Pressed(Display):
+        def __call__(self, progress: Progress) -> None:
+            if progress.done and not seen:  # a second one would end all
+                seen.append(progress.done)
+                signal.raise_signal(signal.SIGTERM)
+
+    monkeypatch.setattr("nddlc.study.Display", Pressed)
+    assert run(["study", "gps/study.toml", "--workers", "1"]) == 128 + signal.SIGTERM
+    told = capsys.readouterr()
+    assert "the same command goes on" in told.err and len([one for one in told.err.splitlines() if ", " in one]) == 2
+    assert not Path("nddlc-study").exists()
 
 
 @pytest.mark.parametrize(
