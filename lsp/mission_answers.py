@@ -1,10 +1,7 @@
 """What editors ask about mission files: completion, hover, and the way into the model."""
 
-import json
 import re
 from collections.abc import Iterator
-from functools import cache
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -27,23 +24,29 @@ from lsp.hover import link
 from lsp.mission_texts import FILE_KEYS, MissionPlace, OpenMission, place_at
 from lsp.project import Snapshot
 from lsp.roots import models_below
+from lsp.solver_names import models_of_solver, named_in_solver, solver_values
+from lsp.toml_kinds import TomlKind, choices_of, described, kind_of, root_schema, schema_of, variants
 from lsp.uris import uri_of
+from nddl_lang.lint.pages import PAGES
 from nddl_lang.semantics.natives import SELF_ACTIVATING, TIMELINE
-from nddl_lang.semantics.schema import EnumValue, GlobalReference, Kind, Predicate, Variable
+from nddl_lang.semantics.schema import Class, EnumValue, GlobalReference, Kind, Predicate, Variable
 from nddl_lang.text.source import Span
+from runtime.solver.configuration.words import HANDLERS
+from runtime.solver.tags import MANAGER_NAMES
 
 _TIMELINES = ("internal", "external", "early", "late", "observe", "timeline")
 _FIGURES = ("path", "during", "phases", "targets")  # timelines
 _GIVEN = (("goal", "parameters"), ("property", "parameters"))  # tables of arguments
 _OBJECTS = {**dict.fromkeys(_TIMELINES, (TIMELINE,)), "resource": tuple(sorted(SELF_ACTIVATING))}  # by key: of a class
 _CODED = re.compile(r"^[ \t]*code[ \t]*=", re.MULTILINE)  # a reactor in Python, of which nothing is proved
+_COMPONENT = re.compile(r"""^[ \t]*component[ \t]*=[ \t]*["']([^"'\n]*)["']""", re.MULTILINE)
 _HEAD = re.compile(r"^[ \t]*\[mission\]", re.MULTILINE)
 # Commands of the server.
 CHECK = "nddl.check"
 EXPLAIN = "nddl.explain"
 CERTIFY = "nddl.certify"
 _SOLVERS = (".toml", ".xml")
-_Thing = Variable | EnumValue | Predicate
+_Thing = Variable | EnumValue | Predicate | Class
 
 
 def mission_completions(documents: Documents, mission: OpenMission, offset: int) -> list[CompletionItem]:
@@ -74,9 +77,19 @@ def mission_hover(documents: Documents, mission: OpenMission, offset: int, conve
                 parts = describer.enum_value(thing)
             case Predicate():
                 parts = describer.predicate(thing)
+            case Class():
+                parts = describer.class_(thing)
         return Hover(MarkupContent(MarkupKind.Markdown, "\n\n".join(part for part in parts if part)), shown)
-    described = _described((*place.table, place.key or place.word) if place.word or place.key else place.table)
-    return Hover(MarkupContent(MarkupKind.Markdown, described), shown) if described else None
+    kind = kind_of(mission.path, mission.text)
+    text = _page(place.word) if kind is TomlKind.SETTINGS else None
+    text = text or described(kind, (*place.table, place.key or place.word) if place.word or place.key else place.table)
+    return Hover(MarkupContent(MarkupKind.Markdown, text), shown) if text else None
+
+
+def _page(code: str) -> str | None:
+    """What a code of a lint means."""
+    page = PAGES.get(code)
+    return f"`{code}`: {page.what}" if page is not None else None
 
 
 def mission_definition(
@@ -125,17 +138,21 @@ def declared_at(snapshot: Snapshot, thing: _Thing) -> Span | None:
 
 
 def _snapshots(documents: Documents, mission: OpenMission) -> Iterator[Snapshot]:
-    for path in mission.models:
+    is_solver = kind_of(mission.path, mission.text) is TomlKind.SOLVER
+    for path in models_of_solver(mission) if is_solver else mission.models:
         if (snapshot := documents.model(path)) is not None:
             yield snapshot
 
 
 def named(documents: Documents, mission: OpenMission, place: MissionPlace) -> Iterator[tuple[Snapshot, _Thing]]:
     """What the word at a place names in the models."""
+    is_solver = kind_of(mission.path, mission.text) is TomlKind.SOLVER
     for snapshot in _snapshots(documents, mission):
         schema = snapshot.analysis.schema
         thing: _Thing | None = None
-        if place.is_value and (place.key in _OBJECTS or (place.table == ("figures",) and place.key in _FIGURES)):
+        if is_solver:
+            thing = named_in_solver(schema, place, *_class_and_predicate(mission, place))
+        elif place.is_value and (place.key in _OBJECTS or (place.table == ("figures",) and place.key in _FIGURES)):
             thing = schema.globals.get(place.word)
         elif place.table == ("figures",) and place.is_value and place.key in ("samples", "feature"):
             thing = _figured(mission, snapshot, place)
@@ -176,6 +193,12 @@ def _sibling(mission: OpenMission, place: MissionPlace, key: str) -> str:
     return ""
 
 
+def _class_and_predicate(mission: OpenMission, place: MissionPlace) -> tuple[str, str]:
+    """What a table of a solver says of tokens, of the parent where the key at hand speaks of it."""
+    before = "master_" if (place.key or "").startswith("master_") else ""
+    return _sibling(mission, place, f"{before}class"), _sibling(mission, place, f"{before}predicate")
+
+
 def _predicate(snapshot: Snapshot, timeline: str, name: str) -> Predicate | None:
     schema = snapshot.analysis.schema
     variable = schema.globals.get(timeline)
@@ -191,8 +214,19 @@ def _values(documents: Documents, mission: OpenMission, place: MissionPlace) -> 
     if place.key in ("solver", "batch", "modules", "code"):
         yield from (CompletionItem(name, kind=CompletionItemKind.File) for name in _files(folder, place.key))
         return
-    for choice in _schema_of((*place.table, place.key or "")).get("enum", ()):
-        yield CompletionItem(str(choice), kind=CompletionItemKind.EnumMember)
+    kind = kind_of(mission.path, mission.text)
+    for choice in _choices(mission, kind, place):
+        yield CompletionItem(choice, kind=CompletionItemKind.EnumMember)
+    if kind is TomlKind.SETTINGS:
+        if place.key in ("select", "ignore"):
+            yield from _codes()
+        elif place.key == "include":
+            yield from (CompletionItem(name, kind=CompletionItemKind.Folder) for name in _folders(folder))
+        return
+    if kind is TomlKind.SOLVER:
+        for snapshot in _snapshots(documents, mission):
+            yield from solver_values(snapshot.analysis.schema, place.key, *_class_and_predicate(mission, place))
+        return
     for snapshot in _snapshots(documents, mission):
         schema = snapshot.analysis.schema
         if place.key in _OBJECTS:
@@ -207,6 +241,29 @@ def _values(documents: Documents, mission: OpenMission, place: MissionPlace) -> 
                 yield CompletionItem(predicate.name, kind=CompletionItemKind.Method, detail=predicate.full_name)
 
 
+def _choices(mission: OpenMission, kind: TomlKind, place: MissionPlace) -> list[str]:
+    """The words of the schema that may stand there; handlers only of the manager that they belong to."""
+    words = choices_of(kind, (*place.table, place.key or ""))
+    if (*place.table, place.key) != ("manager", "handler", "component"):
+        return words
+    header = mission.text.rfind("[[manager]]", 0, place.begin)
+    manager = _COMPONENT.search(mission.text, max(header, 0), place.begin)
+    mended = MANAGER_NAMES.index(manager[1]) if manager is not None and manager[1] in MANAGER_NAMES else None
+    return [word for word in words if mended is None or HANDLERS[word][0] == mended]
+
+
+def _codes() -> Iterator[CompletionItem]:
+    for code, page in PAGES.items():
+        yield CompletionItem(code, kind=CompletionItemKind.Constant, detail=page.what)
+
+
+def _folders(folder: Path) -> list[str]:
+    try:
+        return sorted(path.name for path in folder.iterdir() if path.is_dir() and not path.name.startswith("."))
+    except OSError:
+        return []
+
+
 def _files(folder: Path, key: str) -> list[str]:
     wanted = {"solver": _SOLVERS, "batch": (".xml",)}.get(key, (".py",))
     try:
@@ -219,8 +276,13 @@ def _tables(documents: Documents, mission: OpenMission, place: MissionPlace) -> 
     if place.table == ("parameters",):
         yield from _parameters(documents, mission)
     elif not place.table:
-        for name, schema in _mission_schema()["properties"].items():
+        for name, schema in root_schema(kind_of(mission.path, mission.text))["properties"].items():
             yield CompletionItem(name, kind=CompletionItemKind.Module, detail=schema.get("description"))
+    elif kind_of(mission.path, mission.text) is TomlKind.SOLVER:
+        for variant in variants(schema_of(TomlKind.SOLVER, place.table)):
+            for name in ("filter", "handler"):
+                if name in variant.get("properties", {}):
+                    yield CompletionItem(name, kind=CompletionItemKind.Module)
 
 
 def _parameters(documents: Documents, mission: OpenMission) -> Iterator[CompletionItem]:
@@ -247,45 +309,15 @@ def _keys(documents: Documents, mission: OpenMission, place: MissionPlace) -> It
             for parameter in predicate.parameters if predicate is not None else ():
                 yield CompletionItem(parameter.name, kind=CompletionItemKind.Field, detail=parameter_text(parameter))
         return
+    kind = kind_of(mission.path, mission.text)
+    if kind is TomlKind.SETTINGS and place.table[-1:] == ("severity",):
+        yield from _codes()
+        return
     if not place.table:
-        yield from (
-            CompletionItem(f"[{name}]", kind=CompletionItemKind.Module) for name in _mission_schema()["properties"]
-        )
-    for schema in _variants(_schema_of(place.table)):
+        for name, schema in root_schema(kind)["properties"].items():
+            is_array = schema.get("type") == "array" and "properties" in schema.get("items", {})
+            if is_array or schema.get("type") == "object":
+                yield CompletionItem(f"[[{name}]]" if is_array else f"[{name}]", kind=CompletionItemKind.Module)
+    for schema in variants(schema_of(kind, place.table)):
         for name, each in schema.get("properties", {}).items():
             yield CompletionItem(name, kind=CompletionItemKind.Property, detail=each.get("description"))
-
-
-# ---- the schema of mission files ----
-
-
-@cache
-def _mission_schema() -> Any:
-    return json.loads(files("checker").joinpath("mission_schema.json").read_text(encoding="utf-8"))
-
-
-def _variants(schema: Any) -> list[Any]:
-    """The schema itself, or those that it is one of."""
-    schema = schema.get("items", schema)
-    return list(schema.get("oneOf", (schema,)))
-
-
-def _schema_of(path: tuple[str, ...]) -> Any:
-    """The schema of a table or key; empty where there is none."""
-    schema = _mission_schema()
-    for name in path:
-        found: Any = {}
-        for variant in _variants(schema):
-            more = variant.get("additionalProperties")
-            found = found or variant.get("properties", {}).get(name) or (more if isinstance(more, dict) else {})
-        schema = found
-    return schema
-
-
-def _described(path: tuple[str, ...]) -> str | None:
-    schema = _schema_of(path)
-    text = schema.get("description") if isinstance(schema, dict) else None
-    if text is None:
-        return None
-    default = f" (default: `{json.dumps(schema['default'])}`)" if "default" in schema else ""
-    return f"`{'.'.join(path)}`: {text}{default}"

@@ -15,6 +15,7 @@ from nddl_lang.lint.configuration import NAME, PROJECT
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source
 from nddl_lang.text.toml_places import HEADER
+from runtime.solver.configuration.read_toml import is_solver_toml
 
 # All that is wrong with a text of that name in that folder; whether the workspace is trusted.
 Examine = Callable[[Source, Path, bool], Iterable[Diagnostic]]
@@ -47,7 +48,7 @@ class OpenMission:
     @property
     def models(self) -> list[Path]:
         """The models that its reactors run, in the order of the text, each once."""
-        return [self.path.parent / name for name in dict.fromkeys(_MODEL.findall(self.text))]
+        return [self.path.parent / name for name in models_in(self.text)]
 
     def file_named(self, value: str) -> Path | None:
         """The file that a value names, which may be `file.py:Class`; None where there is none."""
@@ -71,6 +72,11 @@ class MissionPlace:
     word: str
     begin: int
     finish: int
+
+
+def models_in(text: str) -> list[str]:
+    """The models that a mission file names, each once."""
+    return list(dict.fromkeys(_MODEL.findall(text)))
 
 
 def place_at(text: str, offset: int) -> MissionPlace:
@@ -167,7 +173,7 @@ class MissionTexts:
         if path is None:
             return None
         has_name = path.name in _CONFIGURATIONS or any(word in path.name.lower() for word in _WORDS)
-        if not has_name and _MISSION.search(text) is None:
+        if not has_name and _MISSION.search(text) is None and not is_solver_toml(text):
             return None
         found = self._open[uri] = OpenMission(uri, path, version, Lines(text, self._encoding))
         return found
