@@ -16,9 +16,9 @@ from checker.role_fit import find_role_misfits
 from compiler.lower import compile_model
 from compiler.program import ParameterSite, Program
 from nddl_lang.analysis import Analysis, analyse
-from nddl_lang.lint.configuration import most_lexemes
+from nddl_lang.lint.configuration import settings_in
 from nddl_lang.semantics.callables import Callables
-from nddl_lang.syntax.includes import OpenText, load_module_graph
+from nddl_lang.syntax.includes import LoadedModules, OpenText, load_module_graph
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.read import NotAFileError, read_source, read_text
 from runtime.executive.configuration import AgentConfiguration
@@ -117,9 +117,14 @@ def _analyse_models(agent: AgentConfiguration, callables: Callables, open_text: 
     """The meaning of each model of an agent, by its path in the mission file."""
     names = dict.fromkeys(reactor.model for reactor in agent.reactors)
     root = Path(agent.root)
-    most = most_lexemes(root)
-    loaded = {name: load_module_graph(root / name, open_text=open_text, most=most) for name in names}
+    loaded = {name: _read(root / name, open_text) for name in names}
     return {name: analyse(each, callables) for name, each in loaded.items()}
+
+
+def _read(path: Path, open_text: OpenText) -> LoadedModules:
+    """A model with all that it includes, as the settings of its project say."""
+    way = settings_in(path.parent)
+    return load_module_graph(path, way.directories, way.dialect, open_text=open_text, most=way.most_lexemes)
 
 
 def _sites(programs: dict[str, Program]) -> dict[str, ParameterSite]:

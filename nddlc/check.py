@@ -163,7 +163,8 @@ def _check_text(file: Path, dialect: Dialect | None, style: str, name: str, is_t
     """Tell what is wrong with the text of a model that is called `name`; the exit code."""
     settings = configured(file)
     callables, gaps = known_callables(settings, is_trusted=is_trusted)
-    analysis = analyse_file(file, dialect, callables=callables, most=settings.most_lexemes)
+    chosen = dialect or settings.dialect
+    analysis = analyse_file(file, chosen, settings.directories, callables, settings.most_lexemes)
     _tell((*gaps, *analysis.diagnostics), style)
     if style == "text" and not analysis.has_errors:
         click.echo(f"the text of `{name}` is in order; missions are flown from a mission file (.toml)")

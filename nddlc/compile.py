@@ -13,7 +13,7 @@ from compiler.determined.reasons import ChoiceReason
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
 from nddlc.fitting import colours
-from nddlc.inputs import Unusable, chosen_dialect, configured, readable
+from nddlc.inputs import Unusable, configured, read_by, readable
 from nddlc.one_mission import prepare
 from nddlc.trust import library_for, trust_option
 from runtime.determined.building import find_out
@@ -57,9 +57,8 @@ def command(
         raise Unusable("`--reactor` names a reactor of a mission file, and this is a model")
     else:
         library = library_for(file, configured(file), is_trusted=is_trusted)
-        loaded = load(
-            file, directories, chosen_dialect(ctx, dialect), library, path, most=configured(file).most_lexemes
-        )
+        way = read_by(ctx, file, directories, dialect)
+        loaded = load(file, way.directories, way.dialect, library, path, most=way.most)
         if loaded.is_refused or loaded.database is None or loaded.program is None:
             for each in loaded.diagnostics:
                 click.echo(render(each, colour=colours()), err=True)

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from nddl_lang.formatter.format import format_text
-from nddl_lang.lint.configuration import most_lexemes
+from nddl_lang.lint.configuration import settings_in
 from nddl_lang.syntax.dialect import Dialect, declared_dialect
 from nddl_lang.text.diagnostic import Severity
 from nddl_lang.text.printable import printable
@@ -40,7 +40,7 @@ def command(ctx: click.Context, files: tuple[str, ...], dialect: str | None, onl
     changed, broken = 0, 0
     for name in _named(files):
         before = _read(name)
-        most = most_lexemes(Path(name).parent)
+        most = settings_in(Path(name).parent).most_lexemes
         formatted = format_text(before, chosen or declared_dialect(before) or Dialect.NDDLC, name, most)
         mistakes = [each for each in formatted.diagnostics if each.severity is Severity.ERROR]
         broken += bool(mistakes)

@@ -3,6 +3,7 @@
 import os
 import stat
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
@@ -121,6 +122,22 @@ def _configuration(directory: Path) -> Settings:
 def configured(path: Path) -> Settings:
     """The settings of the project that a file belongs to."""
     return _configuration(real_path(path).parent)
+
+
+@dataclass(frozen=True, slots=True)
+class ReadBy:
+    """How a model is read: the folders of its includes, its dialect unless its first line says, its greatest size."""
+
+    directories: tuple[str, ...]
+    dialect: Dialect | None
+    most: int
+
+
+def read_by(ctx: click.Context, path: Path, directories: tuple[str, ...] = (), dialect: str | None = None) -> ReadBy:
+    """What the command line says of a model, and its project where that is silent."""
+    settings = configured(path)
+    folders = (*directories, *map(str, settings.directories))
+    return ReadBy(folders, chosen_dialect(ctx, dialect) or settings.dialect, settings.most_lexemes)
 
 
 def write_text(path: Path, text: str, advice: str | None = None) -> None:

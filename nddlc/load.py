@@ -7,7 +7,7 @@ import click
 from nddl_lang.text.render import render
 from nddl_lang.text.values import json_text
 from nddlc.fitting import colours, columns, say
-from nddlc.inputs import chosen_dialect, configured, model_files, models_only, readable
+from nddlc.inputs import configured, model_files, models_only, read_by, readable
 from nddlc.trust import library_for, trust_option
 from runtime.loading import Loaded, as_data, load
 from runtime.plan.readout.state import PlanState
@@ -32,12 +32,12 @@ def command(
 
     Ends with 0 if all is well, with 1 if a model is in error or contradicts itself.
     """
-    chosen = chosen_dialect(ctx, dialect)
     is_fine = True
     models_only(files)
     for path, name in zip(readable(files, directories), files, strict=True):
         library = library_for(path, configured(path), is_trusted=is_trusted)
-        loaded = load(path, directories, chosen, library, name, most=configured(path).most_lexemes)
+        way = read_by(ctx, path, directories, dialect)
+        loaded = load(path, way.directories, way.dialect, library, name, most=way.most)
         plan = loaded.state()
         is_fine = is_fine and plan is not None and plan.is_consistent
         if as_json:

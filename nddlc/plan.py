@@ -14,7 +14,7 @@ from nddl_lang.text.values import json_text
 from nddlc.cancellation import Clock
 from nddlc.fitting import colours, columns, fitted, say
 from nddlc.goals import goals_of
-from nddlc.inputs import Unusable, chosen_dialect, configured, readable
+from nddlc.inputs import Unusable, configured, read_by, readable
 from nddlc.trust import library_for, trust_option
 from runtime.constraints.domains.tags import HALF_INF, INF
 from runtime.limits import bounded, half_of_the_machine
@@ -113,7 +113,8 @@ def command(
         raise Unusable(f"the horizon from {horizon[0]} to {horizon[1]} is empty")
     settings = configured(path)
     library = library_for(path, settings, is_trusted=is_trusted)
-    loaded = load(path, directories, chosen_dialect(ctx, dialect), library, file, text, settings.most_lexemes)
+    way = read_by(ctx, path, directories, dialect)
+    loaded = load(path, way.directories, way.dialect, library, file, text, way.most)
     before = loaded.state()
     if loaded.database is None or before is None:
         _show_refusal(loaded, as_json)

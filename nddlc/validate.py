@@ -212,7 +212,8 @@ def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> _Jud
     model = path.parent / data["model"]
     if not model.is_file():
         raise DocumentError(f"there is no model `{model}`")
-    analysis = analyse_file(model, most=configured(model).most_lexemes)
+    settings = configured(model)
+    analysis = analyse_file(model, settings.dialect, settings.directories, most=settings.most_lexemes)
     _refuse(analysis.diagnostics)
     program = compile_model(analysis)
     plan = read_plan(data, _base(program, _PLAN), program)._replace(reactor=_PLAN)

@@ -10,6 +10,7 @@ from checker.mutation.edits import SmallEdit, edited
 from compiler.lower import compile_model
 from compiler.program import Program
 from nddl_lang.analysis import Analyser
+from nddl_lang.lint.configuration import settings_in
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import LoadedModules, load_module_graph
 from nddl_lang.syntax.parser import MOST_ASKED_FOR, Parse, parse, parse_members
@@ -74,8 +75,11 @@ def _parsed(name: str, text: str, dialect: Dialect, is_in_class: bool) -> Parse:
 
 def load_graph(path: Path, overlay: Overlay) -> LoadedModules:
     """A model with all that it includes; texts that were parsed before are not parsed again."""
+    settings = settings_in(path.parent)
     return load_module_graph(
         path,
+        settings.directories,
+        settings.dialect,
         open_text=open_over(overlay),
         most=MOST_ASKED_FOR,  # that it is not too large was seen before
         parse_text=lambda _, source, dialect, is_in_class: _parsed(source.name, source.text, dialect, is_in_class),

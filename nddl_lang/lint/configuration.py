@@ -39,10 +39,10 @@ def find_configuration(directory: Path) -> Path | None:
     return None
 
 
-def most_lexemes(directory: Path) -> int:
-    """How many lexemes a model in `directory` may have."""
+def settings_in(directory: Path) -> Settings:
+    """The settings of what stands in `directory`, as far as they can be read."""
     path = find_configuration(directory)
-    return MOST_LEXEMES if path is None else read_configuration(path)[0].most_lexemes
+    return Settings() if path is None else read_configuration(path)[0]
 
 
 def _has_section(path: Path) -> bool:
