@@ -8,6 +8,8 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import networkx as nx
+
 from checker.culprit import culprit_of
 from compiler.program import TOKEN_TIMES
 from runtime.executive.events import causes_of, numbered
@@ -146,20 +148,13 @@ def _in_common(deadlock: Deadlock) -> Conflict | None:
     return conflicts[weights.index(max(weights))] if conflicts else None
 
 
-def _ancestors(events: Sequence[Event], target: int) -> dict[int, int]:
-    """The events behind one, by index, each with what it caused on a shortest way there."""
-    causes = list(causes_of(events))
-    found: dict[int, int] = {}
-    layer = [target]
-    while layer:
-        following = []
-        for effect in layer:
-            for cause in causes[effect]:
-                if cause not in found and cause != target:
-                    found[cause] = effect
-                    following.append(cause)
-        layer = following
-    return found
+def _event_graph(events: Sequence[Event]) -> "nx.DiGraph[int]":
+    """The events of a trace by index, each with arrows to what it caused."""
+    graph: nx.DiGraph[int] = nx.DiGraph()
+    graph.add_nodes_from(range(len(events)))
+    for index, causes in enumerate(causes_of(events)):
+        graph.add_edges_from((cause, index) for cause in causes)
+    return graph
 
 
 def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int, ...]:
@@ -172,14 +167,13 @@ def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int,
     target = decided_at(outcome)
     if target < 0 or not outcome.events:
         return ()
-    ancestors = _ancestors(outcome.events, target)
+    graph = _event_graph(outcome.events)
+    ancestors: set[int] = nx.ancestors(graph, target)
     draws = {index: name for index, name in reversed(_drawn(outcome.events)) if index in ancestors}
     wanted = [index for name in parameters for index, drawn in draws.items() if drawn == name]
     wanted += draws
     if wanted:
-        way = [wanted[0]]
-        while ancestors[way[-1]] != target:
-            way.append(ancestors[way[-1]])
+        way: list[int] = nx.shortest_path(graph, wanted[0], target)[:-1]
     else:
         way = []
         current = target
@@ -204,7 +198,7 @@ def draws_behind(outcome: Outcome) -> tuple[str, ...]:
     names = conflict.parameters if conflict is not None else ()
     if names or outcome.abort is None or not outcome.events:
         return names
-    ancestors = _ancestors(outcome.events, outcome.abort.event)
+    ancestors: set[int] = nx.ancestors(_event_graph(outcome.events), outcome.abort.event)
     return tuple(dict.fromkeys(name for index, name in _drawn(outcome.events) if index in ancestors))
 
 

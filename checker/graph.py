@@ -5,11 +5,12 @@ the rule that posted it for a token; what an element observed, drew or was asked
 reactor that published, and to who asked for it.
 """
 
-from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import chain, islice
+
+import networkx as nx
 
 from runtime.executive.outcome import (
     Conflict,
@@ -99,47 +100,29 @@ def focused(graph: CausalGraph, level: int) -> CausalGraph:
     """
     if level > 1:
         return graph
-    causes: dict[int, set[int]] = defaultdict(set)
-    effects: dict[int, set[int]] = defaultdict(set)
-    for cause, effect in graph.edges:
-        causes[effect].add(cause)
-    kept, waiting = set(graph.ends), list(graph.ends)
-    while waiting:
-        new = causes[waiting.pop()] - kept
-        kept |= new
-        waiting += new
-    for effect in kept:
-        for cause in causes[effect]:
-            effects[cause].add(effect)
-    for number in sorted(kept) if level == 0 else ():
-        if graph.nodes[number].kind in _PLAIN:
-            kept.discard(number)
-            before, after = causes.pop(number, set()), effects.pop(number, set())
-            for cause in before:
-                effects[cause] = (effects[cause] | after) - {number, cause}
-            for effect in after:
-                causes[effect] = (causes[effect] | before) - {number, effect}
-    edges = sorted((cause, effect) for effect in kept for cause in causes[effect])
-    return CausalGraph(tuple(graph.nodes[number] for number in sorted(kept)), tuple(edges), graph.ends)
+    whole: nx.DiGraph[int] = nx.DiGraph()
+    whole.add_nodes_from(range(len(graph.nodes)))
+    whole.add_edges_from(graph.edges)
+    kept = set(graph.ends)
+    for end in graph.ends:
+        kept |= nx.ancestors(whole, end)
+    whole = whole.subgraph(kept).copy()
+    if level == 0:
+        for number in sorted(kept):
+            if graph.nodes[number].kind in _PLAIN:
+                before, after = list(whole.predecessors(number)), list(whole.successors(number))
+                whole.remove_node(number)
+                whole.add_edges_from((one, other) for one in before for other in after if one != other)
+    nodes = tuple(graph.nodes[number] for number in sorted(whole.nodes))
+    return CausalGraph(nodes, tuple(sorted(whole.edges)), graph.ends)
 
 
 def layers(graph: CausalGraph) -> list[list[int]]:
     """The numbers of the nodes in layers, causes before effects: the longest way from a root decides."""
-    effects: dict[int, list[int]] = defaultdict(list)
-    open_causes = dict.fromkeys((node.number for node in graph.nodes), 0)
-    for cause, effect in graph.edges:
-        effects[cause].append(effect)
-        open_causes[effect] += 1
-    layer = sorted(number for number, count in open_causes.items() if not count)
-    found = []
-    while layer:
-        found.append(layer)
-        freed = []
-        for effect in (one for number in layer for one in effects[number]):
-            open_causes[effect] -= 1
-            freed += [effect] if not open_causes[effect] else []
-        layer = sorted(freed)
-    return found
+    network: nx.DiGraph[int] = nx.DiGraph()
+    network.add_nodes_from(node.number for node in graph.nodes)
+    network.add_edges_from(graph.edges)
+    return [sorted(layer) for layer in nx.topological_generations(network)]
 
 
 class _Maker:
