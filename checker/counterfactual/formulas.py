@@ -50,9 +50,9 @@ class Formulas:
         return _within(self._joined(edit, site))
 
     def adds_scale(self, edit: SmallEdit, site: EditSite) -> bool:
-        """Whether an edit writes a sign before or behind a rate or share, which is hardly added to anything."""
+        """Whether an edit writes a sign beside a rate or share, which is hardly added but to get another one."""
         after = self._pairs(site.after(edit))
-        return any(self._sort(one) == _SCALE and one[1] == edit.new for one in after)
+        return not _sets_scale(site.text) and any(self._sort(one) == _SCALE and one[1] == edit.new for one in after)
 
     def place_odds(self, edit: SmallEdit, site: EditSite) -> float:
         """The same of the order of arguments or operands, by their places in other calls, too."""
@@ -66,13 +66,16 @@ class Formulas:
         kept = Counter(before) & Counter(after)
         old, new = (Counter(one) - kept for one in (before, after))
         idle = _NEEDLESS * (_needless(site.after(edit)) - _needless(site.text))
-        known = sum(self._weight(one, 1) for one in old.elements())
-        return idle + known - sum(self._weight(one, 0) for one in new.elements())
+        sets = _sets_scale(site.text)
+        known = sum(self._weight(one, 1, sets) for one in old.elements())
+        return idle + known - sum(self._weight(one, 0, sets) for one in new.elements())
 
-    def _weight(self, pair: _Pair, own: int) -> float:
+    def _weight(self, pair: _Pair, own: int, sets_scale: bool) -> float:
         """Logarithm of the share of an operator among those that join such operands, its `own` mention left out."""
         left, operator, right = pair
         sort = self._sort(pair)
+        if sort == _SCALE and sets_scale:
+            sort = _CONSTANT
         is_kin_pair = {self._kind(left), self._kind(right)} == {_CONSTANT, _NAME} and is_kin(
             left.rpartition(".")[2], right.rpartition(".")[2]
         )
@@ -114,6 +117,12 @@ class Formulas:
         if word in (_ROUND, _SUM):
             return _ROUND if word == _ROUND else _NAME
         return _NUMBER if word[0].isdigit() else _CONSTANT if word in self._constants else _NAME
+
+
+def _sets_scale(text: str) -> bool:
+    """Whether a line says what a rate or share is."""
+    found = re.match(r"\s*([\w.]+)\s*==", text)
+    return found is not None and _SCALING.search(found.group(1)) is not None
 
 
 def _needless(text: str) -> int:

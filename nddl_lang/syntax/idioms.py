@@ -1,6 +1,7 @@
 """Statements as C, Java, Python and PDDL write them: recognised by their words, with how NDDL says the same."""
 
 import re
+from functools import cache
 from typing import NamedTuple
 
 from nddl_lang.syntax.builder import Builder
@@ -153,7 +154,6 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
     (rf"({_N} :: {_N}) ([^{{]*[^{{\w ][^{{]*) \{{", r"a rule is written `\1 { }`, without `\2`", ""),
     (r"((?:[-=:>] ?)+) \{", r"the braces stand right after what they belong to, without `\1`", ""),
 )
-_TABLE = tuple((re.compile(pattern, re.DOTALL), help_, written) for pattern, help_, written in _ROWS)
 _TIDY = (
     (re.compile(r"([-=]) >"), r"\1>"),
     (re.compile(r" ?(\.|::) ?"), r"\1"),
@@ -162,6 +162,12 @@ _TIDY = (
 )
 _CALL = re.compile(r"(\w) \(")
 _PROSE = 4  # names in a row that are a sentence
+
+
+@cache
+def _table() -> tuple[tuple[re.Pattern[str], str, str], ...]:
+    """The rows with their patterns; to compile these takes a tenth of a second, and only mistakes need them."""
+    return tuple((re.compile(pattern, re.DOTALL), help_, written) for pattern, help_, written in _ROWS)
 
 
 def find_idiom(b: Builder, first: int, index: int, is_inside: bool) -> Idiom | None:
@@ -186,7 +192,7 @@ def find_idiom(b: Builder, first: int, index: int, is_inside: bool) -> Idiom | N
         return Idiom(f"a token is asked for by name: `{written}`", _fix(b, first, last, written))
     if _is_prose(b, first, index):
         return Idiom("a comment begins with `//`", None)
-    for pattern, help_, written in _TABLE:
+    for pattern, help_, written in _table():
         match = pattern.fullmatch(text)
         if match is not None:
             fix = _fix(b, first, last, _tidied(match.expand(written))) if written and b.kinds[last] == ";" else None
