@@ -109,7 +109,7 @@ def test_more_missions_are_added_to_what_was_flown(folder: Path, capsys: pytest.
 def test_a_signal_ends_a_study_at_once(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    seen = []
+    seen: list[int] = []
 
     class Pressed(Display):
         def __call__(self, progress: Progress) -> None:
