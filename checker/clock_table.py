@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
-from checker.codes import MISSING_KEY, NO_FILE, NO_TEXT_FILE, OUT_OF_RANGE, UNKNOWN_CHOICE, UNKNOWN_ELEMENT
+from checker.codes import MISSING_KEY, OUT_OF_RANGE, UNKNOWN_CHOICE, UNKNOWN_ELEMENT
 from checker.mission_table import MissionText, Table
+from checker.named_files import look_at
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.read import read_source
 from nddl_lang.text.source import Source
@@ -29,14 +30,10 @@ def read_clock(table: Table, root: Path) -> ClockConfiguration:
 
 
 def _read_log(text: MissionText, key: tuple[str | int, ...], root: Path, file: str) -> tuple[tuple[int, int], ...]:
-    """The steps by tick of a file that the mission names; complains there of a file that is not one."""
-    span, path = text.value_span(key), root / file
-    if not path.is_file():
-        there = path.exists()
-        code = NO_TEXT_FILE.at(span, path=file, what="a directory" if path.is_dir() else "a device or a pipe")
-        text.diagnostics.append(code if there else NO_FILE.at(span, path=file, help="paths are relative to this file"))
+    """The steps by tick of a file that the mission names."""
+    if not look_at(text, key, root, file):
         return ()
-    counts, complaints = read_clock_log(read_source(path))
+    counts, complaints = read_clock_log(read_source(root / file))
     text.diagnostics += complaints
     return counts
 

@@ -13,11 +13,12 @@ from typing import cast
 from checker.agent_file import read_agent_file
 from checker.batch_xml import read_batch
 from checker.clock_table import read_clock
-from checker.codes import CYCLE, NO_FILE, NO_GOALS, NO_OWNER, NO_TEXT_FILE, NOT_TOML, TWICE, UNKNOWN_CHOICE
+from checker.codes import CYCLE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE, UNKNOWN_CHOICE
 from checker.figures import Figures, read_figures
 from checker.goal_fit import goals_out_of_time
 from checker.losses import Limit
 from checker.mission_table import MissionText, Table, TomlTable, is_finite_number
+from checker.named_files import look_at
 from checker.parameter_tables import read_parameters
 from checker.property_tables import read_properties
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
@@ -132,7 +133,7 @@ def _with_batch(
 ) -> tuple[AgentConfiguration, CheckConfiguration]:
     """Add what a batch file in XML says of parameters and of the seed that the mission file does not."""
     before = len(top.text.diagnostics)
-    _look_at(top.text, ("mission", "batch"), root, file)
+    look_at(top.text, ("mission", "batch"), root, file)
     if len(top.text.diagnostics) > before:
         return agent, check
     batch, complaints = read_batch(read_source(root / file))
@@ -165,7 +166,7 @@ def _read_constraints(table: Table, root: Path) -> tuple[tuple[str, ...], float]
     seconds = table.number("time_limit", USUAL, 0.001)
     table.close()
     for index, file in enumerate(modules):
-        _look_at(table.text, (*table.path, "modules", index), root, file)
+        look_at(table.text, (*table.path, "modules", index), root, file)
     return modules, seconds
 
 
@@ -231,7 +232,7 @@ def _read_reactors(
         )
         for key, file in files:
             if file:
-                _look_at(table.text, (*table.path, key), root, file)
+                look_at(table.text, (*table.path, key), root, file)
         span = table.text.value_span((*table.path, "name"))
         if reactor.name in names:
             _complain_of_twin(table, span, "the reactor", reactor.name, names[reactor.name])
@@ -376,25 +377,3 @@ def _suggest(name: str, known: list[str]) -> str | None:
     if close:
         return f"did you mean `{close}`?"
     return "owned timelines: " + ", ".join(known) if known else None
-
-
-def _look_at(text: MissionText, key: tuple[str | int, ...], root: Path, file: str) -> None:
-    """Complain of a file that is not there, or is none."""
-    path, span = root / file, text.value_span(key)
-    try:
-        is_file, is_there, is_folder = path.is_file(), path.exists(), path.is_dir()
-    except (OSError, ValueError):  # no path can be so: a name with a zero byte, or one that is too long
-        is_file = is_there = is_folder = False
-    if is_there and not is_file:
-        what = "a directory" if is_folder else "a device or a pipe"
-        text.diagnostics.append(NO_TEXT_FILE.at(span, path=file, what=what, help="name a regular file"))
-    elif not is_file:
-        text.diagnostics.append(NO_FILE.at(span, path=file, help=_suggest_file(root, file)))
-
-
-def _suggest_file(root: Path, file: str) -> str | None:
-    folder = (root / file).parent
-    if not folder.is_dir():
-        return "paths are relative to the mission file"
-    close = nearest(Path(file).name, sorted(path.name for path in folder.iterdir()))
-    return f"did you mean `{(Path(file).parent / close).as_posix()}`?" if close else None

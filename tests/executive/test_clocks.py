@@ -174,6 +174,7 @@ def test_a_log_and_a_number_of_steps_exclude_each_other(folder: Path) -> None:
         ('steps = 3\nlog = "c.xml"', "NDDL705"),
         ('log = "d.xml"', "NDDL708"),
         ('log = "."', "NDDL724"),
+        ('log = "a\\u0000b"', "NDDL708"),
         ("percent_use = 3", "NDDL705"),
     ):
         mission, found = parse_mission(Source("mission.toml", f"{toml}\n[clock]\n{table}\n"), folder)
