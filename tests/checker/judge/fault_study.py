@@ -18,7 +18,7 @@ from checker.mission import read_mission
 from checker.models import load_models
 from runtime.executive.mission import record_mission
 from runtime.executive.outcome import EventKind
-from tests.checker.judge.faults import Fault, broken, faults
+from tests.checker.judge.faults import EndlessError, Fault, broken, faults
 from tests.checker.judge.missions import GPS, INL, cooking, walking
 from tests.executive.flying import Flown
 from tests.programs import programs_of
@@ -66,7 +66,7 @@ def broken_flights(name: str, fly: Fly, rounds: range, spans: int, seconds: floa
             try:
                 with broken(fault, seconds):
                     mission = fly()
-            except Exception as problem:
+            except (Exception, EndlessError) as problem:
                 yield Broken(name, fault, "raised", f"{type(problem).__name__}: {problem}")
                 continue
             yield Broken(name, fault, *_fate(mission, right), mission)

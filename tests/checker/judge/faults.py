@@ -34,12 +34,24 @@ class Fault:
     wrap: Wrap
 
 
-class EndlessError(Exception):
-    """A broken engine that does not come to an end."""
+class EndlessError(BaseException):
+    """A broken engine that does not come to an end; no `except Exception` of it may stop this."""
 
 
 def _give_up(*_: object) -> None:
     raise EndlessError
+
+
+@contextmanager
+def at_most(seconds: float) -> Iterator[None]:
+    """Raise `EndlessError` after so many seconds of computing."""
+    before = signal.signal(signal.SIGVTALRM, _give_up)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+        signal.signal(signal.SIGVTALRM, before)
 
 
 @contextmanager
@@ -55,13 +67,10 @@ def broken(fault: Fault, seconds: float = 3.0) -> Iterator[None]:
     for owner, name in places:
         setattr(owner, name, new)
     SHELVES.clear()  # a fault in what loads shows only where it is loaded
-    before = signal.signal(signal.SIGVTALRM, _give_up)
-    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
     try:
-        yield
+        with at_most(seconds):
+            yield
     finally:
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
-        signal.signal(signal.SIGVTALRM, before)
         for owner, name in places:
             setattr(owner, name, old)
         SHELVES.clear()  # nor may what the fault has loaded reach the next mission

@@ -17,14 +17,13 @@ import runtime.build_form
 from runtime.executive.outcome import Outcome
 from runtime.executive.record import MissionRecord
 from tests.checker.judge.aimed_faults import KINDS, Targets
+from tests.checker.judge.faults import EndlessError, at_most
 from tests.checker.judge.source_faults import SourceFault
 from tests.checker.judge.study_fates import BROKE, LOST, Tally, fate_of, is_same
 from tests.checker.judge.study_missions import (
     NAMES,
     ROOT,
-    EndlessError,
     apart,
-    at_most,
     functions_of_the_engine,
     ready,
     stand_of,

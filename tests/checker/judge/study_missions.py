@@ -8,7 +8,6 @@ import signal
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -55,26 +54,6 @@ _TELLING = (
     "configuration",
     "/record",
 )
-
-
-class EndlessError(BaseException):
-    """A broken engine that does not come to an end; no `except Exception` of it may stop this."""
-
-
-def _give_up(*_: object) -> None:
-    raise EndlessError
-
-
-@contextmanager
-def at_most(seconds: float) -> Iterator[None]:
-    """Raise `EndlessError` after so many seconds of computing."""
-    before = signal.signal(signal.SIGVTALRM, _give_up)
-    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
-        signal.signal(signal.SIGVTALRM, before)
 
 
 @dataclass(frozen=True, slots=True)
