@@ -26,4 +26,4 @@ cdef class Goals:
     cpdef list live(self)
 
     @cython.locals(goal=Goal)
-    cpdef Goal for_token(self, long long token)
+    cpdef list answered(self, long long token)

@@ -295,12 +295,13 @@ class Goals:
                 found.append(goal)
         return found
 
-    def for_token(self, token: int) -> Goal | None:
-        """The goal that a token of the plan is, or stands for."""
+    def answered(self, token: int) -> list[Goal]:
+        """The goals that a token of the plan is, or stands for."""
+        found = []
         for goal in self.posted:
             if self.bench.is_alive(goal.token, goal.token_key) and self.bench.stands_for(goal.token) == token:
-                return goal
-        return None
+                found.append(goal)
+        return found
 
     def open_goals(self) -> list[OpenGoal]:
         """Mandatory goals that were refused, or that have not run to their end by now."""

@@ -379,10 +379,10 @@ class PlanReactor(TeleoReactor):
         self.dispatch.refused[refusal.request.number] = refusal.event
 
     def _causes_of(self, line: TimelineState) -> tuple[int, ...]:
-        """The request that the current token answers, and what else was published before."""
-        goal = self.goals.for_token(line.current)
-        if goal is not None:
-            return (goal.request.event,)
+        """The requests that the current token answers; else what was published before."""
+        answered = self.goals.answered(line.current)
+        if answered:
+            return tuple([goal.request.event for goal in answered])
         return (line.event,) if line.event != NOTHING else ()
 
 

@@ -92,3 +92,28 @@ def test_a_model_that_what_was_drawn_contradicts_is_f9() -> None:
             conflict = outcome.abort.conflict
             assert conflict is not None and conflict.parameters == ("D",)
             assert {"g.n <= 5", "ceil(d)"} <= {one.place.text.rstrip(";") for one in conflict.elements if one.place}
+
+
+def test_one_command_for_two_is_the_answer_to_both_and_who_cannot_use_it_asks_anew() -> None:
+    # Both ask the arm for the same; the second one needs the leg as well, which rests until tick 12.
+    leg = ARM.replace("Arm", "Leg")
+    body = "close();"
+    one = task("Task::Do { any(Arm.Act a); a.start == start; a.n == 1; }")
+    needs = "Job::Make { any(Arm.Act a); a.start == start; a.n == 1; any(Leg.Act b); b.start == start; b.n == 1; }"
+    text = f"{ARM}{leg}{JOB}{needs} Job job = new Job(Internal); Arm arm = new Arm(External);"
+    two = planner("two", f"{text} Leg leg = new Leg(External); {body}", "job", "arm leg", latency=1)
+    acts = f"{ARM}{leg} Arm::Act {{ duration == 2; }} Leg::Rest {{ duration >= 12; }}"
+    world = planner("world", f"{acts} Arm arm = new Arm(Internal); Leg leg = new Leg(Internal); {body}", "arm leg")
+    goals = (
+        GoalConfiguration("task", "Do", start=(4, 4), parameters=(("n", 1),)),
+        GoalConfiguration("job", "Make", start=(2, 40)),
+    )
+    outcome = fly(one, two, world, until=40, goals=goals)
+    asked = [event for event in outcome.events if event.kind is EventKind.REQUEST and event.timeline == "arm"]
+    begun = next(e for e in outcome.events if e.kind is EventKind.OBSERVATION and e.predicate == "Act")
+    assert begun.tick == 4
+    assert {event.reactor for event in asked[:2]} == {"plan", "two"}
+    numbers = {n for n, event in enumerate(outcome.events) if event in asked[:2]}
+    assert numbers <= set(begun.causes)
+    assert lines(outcome, "recall")[0].startswith("4 recall two arm Act(n=1)")
+    assert outcome.abort is None and open_goals(outcome) == []
