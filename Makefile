@@ -183,6 +183,7 @@ mutants: build
 agents: build
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS)
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide
+	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich
 
 renames: build
 	NDDLC_RENAMES=all $(PYTEST) tests/lsp/test_rename_everything.py

@@ -20,7 +20,7 @@ cdef class Agent:
     @cython.locals(reactor=TeleoReactor, tick="long long")
     cpdef object _pass_over(self)
 
-    @cython.locals(is_last=bint, reactor=TeleoReactor)
+    @cython.locals(is_last=bint, later=TeleoReactor, reactor=TeleoReactor)
     cpdef object _synchronise(self)
 
     cpdef object _synchronise_one(self, TeleoReactor reactor)

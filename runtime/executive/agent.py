@@ -132,6 +132,8 @@ class Agent:
                 continue
             abort = self._synchronise_one(reactor)
             if abort is not None:
+                for later in self.reactors[self.reactors.index(reactor) + 1 :]:
+                    later.missed = self.tick
                 return abort
         return None
 

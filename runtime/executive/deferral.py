@@ -88,8 +88,14 @@ class Deferral:
         self.waiting.clear()
         return last
 
-    def close(self) -> int:
-        """Fold in what has waited when the mission ends; what holds then went on. The tick of the last one."""
+    def close(self, missed: int) -> int:
+        """Fold in what has waited when the mission ends; what holds then went on. The tick of the last one.
+
+        What came in the tick that its reactor has `missed` never reached it.
+        """
+        for waiting in self.waiting.values():
+            if waiting and waiting[len(waiting) - 1].tick >= missed:
+                waiting.pop()
         last = self.fold(NOTHING)
         for line in self.lines.values():
             if last != NOTHING and line.current != NOTHING:

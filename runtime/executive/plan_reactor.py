@@ -259,7 +259,7 @@ class PlanReactor(TeleoReactor):
 
     def record(self) -> ReactorRecord:
         """What its plan held over the mission."""
-        self.bench.recorder.synchronised = max(self.bench.recorder.synchronised, self.deferral.close())
+        self.bench.recorder.synchronised = max(self.bench.recorder.synchronised, self.deferral.close(self.missed))
         found = self.bench.recorder.close()
         passed = self.deferral.passed
         return found._replace(tokens=tuple(sorted([*found.tokens, *passed]))) if passed else found

@@ -6,7 +6,7 @@ cdef long long _NEVER
 cdef class TeleoReactor:
     cdef public str name
     cdef public tuple internal, external
-    cdef public long long latency, lookahead, due
+    cdef public long long latency, lookahead, due, missed
     cdef public bint runs_ahead
 
     cpdef long long untold(self) except? -1

@@ -71,6 +71,7 @@ class TeleoReactor:
         self.latency = latency
         self.lookahead = lookahead
         self.due = 0  # the next tick at which it has something to do; earlier ones cost nothing
+        self.missed = _NEVER  # the tick in which the mission ended before its turn came
         self.runs_ahead = False  # whether it carries out ticks before the agent comes to them; then it is never asleep
 
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:

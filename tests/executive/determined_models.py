@@ -42,11 +42,14 @@ def told(outcome: Outcome) -> tuple[object, ...]:
     """What both ways must agree on.
 
     Tokens are numbered by each engine in its own way. A draw is put on record when its token is planned or when it
-    starts, so its own tick counts.
+    starts, so its own tick counts; and requests bear numbers of events, so they are numbered anew.
     """
+    requests = [event.request for event in outcome.events if event.kind is EventKind.REQUEST]
+    numbers = {request: number for number, request in enumerate(requests)}
     abort = outcome.abort and (outcome.abort.code, outcome.abort.tick, outcome.abort.reactor)
     goals = [(goal.timeline, goal.predicate, goal.arguments, why(goal.reason)) for goal in outcome.open_goals]
-    return sorted(filter(None, map(line, outcome.events))), outcome.last_tick, abort, goals
+    lines = [line(event, numbers.get(event.request)) for event in outcome.events]
+    return sorted(filter(None, lines)), outcome.last_tick, abort, goals
 
 
 def why(reason: Reason | None) -> tuple[object, ...]:
@@ -56,12 +59,12 @@ def why(reason: Reason | None) -> tuple[object, ...]:
     return (reason.kind, reason.token and reason.token.predicate, reason.predicate, reason.tick, *why(reason.repair))
 
 
-def line(event: Event) -> str:
-    """An event as text; nothing for draws."""
+def line(event: Event, request: int | None) -> str:
+    """An event as text, with the number of its request; nothing for draws."""
     if event.kind is EventKind.SAMPLE:
         return ""
     arguments = ", ".join(f"{name}={domain.interval or domain.values}" for name, domain in event.arguments)
-    what = f"{event.predicate}({arguments}) {event.request} {event.code}"
+    what = f"{event.predicate}({arguments}) {request} {event.code}"
     return f"{event.tick:6} {event.kind.name} {event.reactor} {event.timeline} {what}"
 
 

@@ -26,10 +26,17 @@ def test_a_random_agent_flies_as_it_must(seed: int) -> None:
     assert faults_of_seed(seed)[1] == []
 
 
-# A repair that forgets the past ends in a contradiction, where rules look back at what has happened.
-@pytest.mark.parametrize("seed", [*range(6), 8100003])
+# A repair that forgets the past ends in a contradiction, where rules look back at what has happened; one token answers
+# two requests.
+@pytest.mark.parametrize("seed", [*range(6), 8100003, 7100277])
 def test_a_random_agent_with_guards_and_ties_flies_as_it_must(seed: int) -> None:
     assert faults_of_seed(seed, wide=True)[1] == []
+
+
+# The mission is aborted before a reactor's turn has come, to which nothing of that tick has happened.
+@pytest.mark.parametrize("seed", [*range(4), 7300017])
+def test_a_random_agent_with_draws_and_stores_flies_as_it_must(seed: int) -> None:
+    assert faults_of_seed(seed, wide=True, rich=True)[1] == []
 
 
 def test_the_oracle_sees_what_is_told_twice(tmp_path: Path) -> None:

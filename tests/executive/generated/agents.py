@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Literal
 
 Bounds = tuple[int, int]
+STORE = 5  # what the store of a planner holds
 Kind = Literal["script", "counter", "mirror", "command", "task"]
 
 
@@ -54,6 +55,11 @@ class Line:
     ties: str = ""  # what a task says of the times of two that it asks for, beside each other
     within: "Line | None" = None  # a script: the task lies within its second step
     copied: "Line | None" = None  # what a mirror shows
+    drawn: int = 0  # a command lasts up to so much longer, by chance
+    period: int = 0  # drawn anew every so many ticks
+    uses: int = 0  # of the store of its planner, from its start on
+    returns: bool = False  # at its end it gives back what it used
+    step: float = 1  # of a counter
 
     @property
     def class_name(self) -> str:
@@ -66,9 +72,11 @@ class Line:
             names = [f"S{number}" for number in range(len(self.steps) + 1)]
             predicates, default = " ".join(f"predicate {name} {{ }}" for name in names), "S0"
         elif self.kind == "counter":
-            predicates, default = "predicate At { int v; }", "At"
+            kind = "int" if self.step == 1 else "float"
+            predicates, default = f"predicate At {{ {kind} v; }}", "At"
         elif self.kind == "mirror":
-            predicates, default = "predicate Dark { } predicate Lit { int v; }", "Dark"
+            kind = "int" if self.copied is None or self.copied.step == 1 else "float"
+            predicates, default = f"predicate Dark {{ }} predicate Lit {{ {kind} v; }}", "Dark"
         else:
             predicates, default = "predicate Rest { } predicate Do { int n; }", "Rest"
         name = self.class_name
@@ -83,14 +91,18 @@ class Line:
             if self.breaks:
                 yield f"{name}::S{len(self.steps)} {{ start <= 0; }}"
         elif self.kind == "counter":
-            yield f"{name}::At {{ duration == {self.steps[0]}; meets(object.At next); next.v == v + 1; }}"
+            yield f"{name}::At {{ duration == {self.steps[0]}; meets(object.At next); next.v == v + {self.step}; }}"
         elif self.kind == "mirror":
             assert self.copied is not None
             when, value = ("At", "v") if self.copied.kind == "counter" else ("S1", "7")
             yield f"{self.copied.class_name}::{when} {{ equals({name}.Lit m); m.v == {value}; }}"
         elif self.kind == "command":
             most = f" n <= {self.most};" if self.most is not None else ""
-            yield f"{name}::Do {{ duration == n + {self.extra};{most} }}"
+            length = f"duration == n + {self.extra};"
+            if self.drawn:
+                yield f"int {self.parameter} = [0 {self.drawn}];"
+                length = f"int late; late == sampledParameter({self.parameter}); duration == n + {self.extra} + late;"
+            yield f"{name}::Do {{ {length}{most} }}"
             if self.rest:
                 yield f"{name}::Rest {{ duration >= {self.rest}; }}"
         else:
@@ -99,7 +111,21 @@ class Line:
                 lasts += f" duration <= {self.lasts[1]};"
             inside = f" contained_by({self.within.class_name}.S1 w);" if self.within is not None else ""
             asked = " ".join(child.text(f"c{number}") for number, child in enumerate(self.children))
-            yield f"{name}::Do {{ {lasts}{inside} {asked} {self.ties} }}"
+            yield f"{name}::Do {{ {lasts}{inside} {asked} {self.ties}{self.store()} }}"
+
+    @property
+    def parameter(self) -> str:
+        """The parameter from which a command draws how much longer it lasts."""
+        return f"LATE_{self.name.upper()}"
+
+    def store(self) -> str:
+        """What a task says of the store of its planner."""
+        if not self.uses:
+            return ""
+        said = f" any(Reservoir.consume take); take.time == start; take.quantity == {self.uses}.0;"
+        if self.returns:
+            said += f" any(Reservoir.produce give); give.time == end; give.quantity == {self.uses}.0;"
+        return said
 
     def fact(self) -> str:
         """How it begins, if something must be said."""
@@ -123,6 +149,8 @@ class Reactor:
     lines: list[Line] = field(default_factory=list)
     max_steps: int | None = None
     forbids_failed: bool = False  # its model has no room for a timeline that failed
+    early: list[Line] = field(default_factory=list)
+    late: list[Line] = field(default_factory=list)
 
     def external(self) -> list[Line]:
         """The timelines that it uses, once each."""
@@ -137,6 +165,8 @@ class Reactor:
         """Its model."""
         external = self.external()
         text = ['#include "TREX.nddl"', *(line.declaration() for line in [*external, *self.lines])]
+        if any(line.uses for line in self.lines):
+            text.append(f"Reservoir store = new Reservoir({STORE}.0, 0.0, {STORE}.0);")
         text += [rule for line in self.lines for rule in line.rules()]
         if self.forbids_failed:
             text += [f"{line.class_name}::Failed {{ start <= 0; }}" for line in external]
@@ -186,6 +216,15 @@ class RandomAgent:
             text.append(f"external = {[line.name for line in one.external()]}")
             if one.max_steps is not None:
                 text.append(f"max_steps = {one.max_steps}")
+            text += [
+                f"{when} = {[line.name for line in lines]}"
+                for when, lines in (("early", one.early), ("late", one.late))
+                if lines
+            ]
+        for line in (line for one in self.reactors for line in one.lines if line.drawn):
+            text += ["", f"[parameters.{line.parameter}]", f"range = [0, {line.drawn}]"]
+            if line.period:
+                text += ['mode = "intra"', f"update = {line.period}"]
         for goal in self.goals:
             text += ["", "[[goal]]", f'timeline = "{goal.line.name}"', 'predicate = "Do"', f"at = {goal.at}"]
             text += [f"mandatory = {str(goal.is_mandatory).lower()}", f"start = {list(goal.start)}"]
@@ -199,7 +238,10 @@ class RandomAgent:
 
     def agent_file(self) -> str | None:
         """The same as an agent file of T-REX; None if that has no words for it."""
+        lines = [line for one in self.reactors for line in one.lines]
         if self.on_failure != "abort_agent" or any(goal.recall is not None for goal in self.goals):
+            return None
+        if any(line.drawn for line in lines) or any(one.early or one.late for one in self.reactors):
             return None
         text = [f'<Agent name="{self.name}" finalTick="{self.final_tick}">', '  <StepClock steps="50"/>']
         for one in self.reactors:

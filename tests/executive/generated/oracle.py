@@ -156,6 +156,9 @@ class Oracle:
             if event["reactor"] in owners and self.order.get(user.name) == event["tick"] and user.name not in used:
                 self.say(event, f"its user `{user.name}` has been synchronised before")
 
+    def _sample(self, event: Data) -> None:
+        """A draw says nothing of what was asked."""
+
     def _request(self, event: Data) -> None:
         number, tick, name, line = event["request"], event["tick"], event["reactor"], event["timeline"]
         start, end, duration = (bounds(event[key]) for key in ("start", "end", "duration"))

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from tests.executive.generated.agents import Child, Line
+from tests.executive.generated.agents import STORE, Child, Line, Reactor
 from tests.executive.generated.oracle import Asked, Held, Oracle, bounds
 
 INFINITE = float("inf")
@@ -25,6 +25,7 @@ def broken_promises(oracle: Oracle) -> Iterator[str]:
                 yield from of_times(oracle, line, held)
             if line.kind == "task":
                 yield from of_children(oracle, line, held)
+        yield from of_a_store(oracle, reactor)
 
 
 def goals_that_are_missing(oracle: Oracle) -> Iterator[str]:
@@ -71,7 +72,8 @@ def of_what_happens_by_itself(oracle: Oracle, line: Line, held: list[Held]) -> I
     tick = 0
     if line.kind == "counter":
         step = line.steps[0]
-        wanted = [(at, "At", {"v": at // step}) for at in range(0, oracle.agent.final_tick + 1, step)]
+        ticks = range(0, oracle.agent.final_tick + 1, step)
+        wanted = [(at, "At", {"v": of_sum(line.step, at // step)}) for at in ticks]
     else:
         for number, length in enumerate((*line.steps, 0)):
             if not (line.breaks and number == len(line.steps)):
@@ -84,6 +86,14 @@ def of_what_happens_by_itself(oracle: Oracle, line: Line, held: list[Held]) -> I
     breaks_at = sum(line.steps)
     if line.kind == "script" and line.breaks and end > breaks_at:
         yield f"{line.name} goes on after {breaks_at}"
+
+
+def of_sum(step: float, count: int) -> float:
+    """What `count` additions of a number give, each rounded as the processor rounds it."""
+    total = 0.0 if step != 1 else 0
+    for _ in range(count):
+        total += step
+    return total
 
 
 def of_a_mirror(oracle: Oracle, line: Line, held: list[Held]) -> Iterator[str]:
@@ -136,7 +146,7 @@ def of_one_alone(oracle: Oracle, line: Line, asked: Asked, held: Held) -> Iterat
         return
     most = (ends(held.arguments["n"])[1] + line.extra) if line.kind == "command" else (line.lasts[1] or INFINITE)
     longest = min(most, asked.duration[1], asked.end[1] - held.start)
-    if held.end - held.start != longest:
+    if not longest <= held.end - held.start <= longest + line.drawn:
         yield f"{line.name} was to last {longest}, and lasted from {held.start} to {held.end}"
 
 
@@ -153,7 +163,7 @@ def of_times(oracle: Oracle, line: Line, held: list[Held]) -> Iterator[str]:
             least, most = (line.rest if line.kind == "command" else 0), INFINITE
         elif one.predicate == "Do" and line.kind == "command":
             lowest, highest = ends(one.arguments["n"])
-            least, most = lowest + line.extra, highest + line.extra
+            least, most = lowest + line.extra, highest + line.extra + line.drawn
             if line.most is not None and lowest > line.most:
                 yield f"{line.name} takes no n above {line.most}: {one}"
         elif one.predicate == "Do":
@@ -181,6 +191,22 @@ def of_children(oracle: Oracle, line: Line, held: list[Held]) -> Iterator[str]:
             around = [each for each in oracle.held[line.within.name] if each.predicate == "S1"]
             if not any(each.start <= one.start and (each.end or INFINITE) >= (one.end or 0) for each in around):
                 yield f"{line.name} {one} is outside of {line.within.name}"
+
+
+def of_a_store(oracle: Oracle, reactor: Reactor) -> Iterator[str]:
+    """What tasks use together is there."""
+    changes = []
+    for line in reactor.lines:
+        for one in oracle.held.get(line.name, []):
+            if line.uses and one.predicate == "Do":
+                changes.append((one.start, -line.uses))
+                if line.returns and one.end is not None and one.end < oracle.killed_at(line.name):
+                    changes.append((one.end, line.uses))
+    level = STORE
+    for tick in sorted({tick for tick, _ in changes}):
+        level += sum(change for at, change in changes if at == tick)
+        if level < 0:
+            yield f"the store of {reactor.name} holds {level} at {tick}"
 
 
 def fits(child: Child, parent: Held, seen: Held) -> bool:

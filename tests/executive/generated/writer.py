@@ -130,8 +130,47 @@ def widened(more: random.Random, children: tuple[Child, ...], able: list[Line]) 
     return tuple(found), relation.format(first, first + 1, other)
 
 
-def random_agent(seed: int, plain: bool = False, wide: bool = False) -> RandomAgent:
-    """The agent of a seed; a plain one can be written as an agent file of T-REX too, a wide one has guards and ties."""
+def enriched(rich: random.Random, agent: RandomAgent) -> RandomAgent:
+    """An agent with draws, stores, numbers with fractions, and timelines that are early or late."""
+    changed: dict[str, Line] = {}
+
+    def renewed(line: Line) -> Line:
+        """A timeline with what it speaks of."""
+        if line.name in changed:
+            return changed[line.name]
+        found = replace(
+            line,
+            children=tuple(child_of(child) for child in line.children),
+            within=None if line.within is None else renewed(line.within),
+            copied=None if line.copied is None else renewed(line.copied),
+        )
+        if line.kind == "command" and rich.random() < 0.5:
+            found = replace(found, drawn=rich.randint(1, 5), period=rich.choice((0, 1, 3, 10)))
+        if line.kind == "task" and rich.random() < 0.5:
+            found = replace(found, uses=rich.randint(1, 3), returns=rich.random() < 0.7)
+        if line.kind == "counter" and rich.random() < 0.5:
+            found = replace(found, step=rich.choice((0.1, 0.25, 1.7)))
+        changed[line.name] = found
+        return found
+
+    def child_of(child: Child) -> Child:
+        before = None if child.before is None else child_of(child.before)
+        return replace(child, line=renewed(child.line), before=before)
+
+    for one in agent.reactors:
+        one.lines = [renewed(line) for line in one.lines]
+        for line in one.lines:
+            if line.kind in ("command", "task") and rich.random() < 0.25:
+                rich.choice((one.early, one.late)).append(line)
+    agent.goals = [replace(goal, line=renewed(goal.line)) for goal in agent.goals]
+    return agent
+
+
+def random_agent(seed: int, plain: bool = False, wide: bool = False, rich: bool = False) -> RandomAgent:
+    """The agent of a seed.
+
+    A plain one can be written as an agent file of T-REX too, a wide one has guards and ties, a rich one is `enriched`.
+    """
     chance = random.Random(f"agent {seed}")
     writer = Writer(chance, more=random.Random(f"wide {seed}") if wide else None)
     writer.reactors += [writer.simulator() for _ in range(chance.choice((1, 1, 2)))]
@@ -145,4 +184,5 @@ def random_agent(seed: int, plain: bool = False, wide: bool = False) -> RandomAg
     if plain:
         goals = [Goal(g.line, g.at, g.start, g.n, g.is_mandatory, g.duration) for g in goals]
     chance.shuffle(writer.reactors)
-    return RandomAgent(f"random{seed}", final_tick, on_failure, writer.reactors, goals)
+    agent = RandomAgent(f"random{seed}", final_tick, on_failure, writer.reactors, goals)
+    return enriched(random.Random(f"rich {seed}"), agent) if rich else agent
