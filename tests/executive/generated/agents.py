@@ -98,11 +98,11 @@ class Line:
             yield f"{self.copied.class_name}::{when} {{ equals({name}.Lit m); m.v == {value}; }}"
         elif self.kind == "command":
             most = f" n <= {self.most};" if self.most is not None else ""
-            length = f"duration == n + {self.extra};"
+            lasting = f"duration == n + {self.extra};"
             if self.drawn:
                 yield f"int {self.parameter} = [0 {self.drawn}];"
-                length = f"int late; late == sampledParameter({self.parameter}); duration == n + {self.extra} + late;"
-            yield f"{name}::Do {{ {length}{most} }}"
+                lasting = f"int late; late == sampledParameter({self.parameter}); duration == n + {self.extra} + late;"
+            yield f"{name}::Do {{ {lasting}{most} }}"
             if self.rest:
                 yield f"{name}::Rest {{ duration >= {self.rest}; }}"
         else:

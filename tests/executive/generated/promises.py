@@ -68,7 +68,7 @@ def of_what_happens_by_itself(oracle: Oracle, line: Line, held: list[Held]) -> I
     """Scripts and counters run as they are written, until somebody fails."""
     last = oracle.events[-1]
     end = min(last["tick"], oracle.killed_at(line.name))
-    wanted: list[tuple[int, str, dict[str, int]]] = []
+    wanted: list[tuple[int, str, dict[str, float]]] = []
     tick = 0
     if line.kind == "counter":
         step = line.steps[0]
