@@ -182,7 +182,9 @@ def assess(
             most_weight=sampling.most_weight,
             is_sequential=sampling.is_sequential,
         )
-        fault = let(partial(_fault, bucket, ordered, agent, seed, refly if is_wanted else None, conditions or {}, text))
+        flier = refly if is_wanted else None
+        asked = None if focus is None or is_wanted else Fault(bucket, None, None)  # nobody asks for this one
+        fault = asked or let(partial(_fault, bucket, ordered, agent, seed, flier, conditions or {}, text))
         fault = Fault(bucket, None, None, is_cut=True) if fault is None else fault
         faults.append(replace(fault, interval=interval, causes=found))
     is_cut = any(one.is_cut or one.causes.ended is TrialsEnd.CANCELLED for one in faults)

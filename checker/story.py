@@ -112,7 +112,7 @@ def tell(
     outcome = result.outcome
     assert outcome is not None
     conflict = failed_by(outcome).conflict
-    confirmation = confirm(conflict, text) if conflict is not None else None
+    confirmation = _confirmed(result, conflict, fault, text)
     parameters = _suspects(outcome, fault)
     until = _decided_at(result, outcome)
     draws = _draws(outcome, agent, influence, parameters, until)
@@ -147,6 +147,15 @@ def tell(
         confirmation,
         missed_after(outcome),
     )
+
+
+def _confirmed(
+    result: MissionResult, conflict: Conflict | None, fault: Fault | None, text: ModelText | None
+) -> Confirmation | None:
+    """z3's word on the conflict, which is known already of the example of a fault."""
+    if fault is not None and fault.confirmation is not None and fault.bucket.example == result.number:
+        return fault.confirmation
+    return confirm(conflict, text) if conflict is not None else None
 
 
 def _requests(outcome: Outcome, conflict: Conflict | None) -> Iterator[int]:

@@ -174,7 +174,8 @@ def _told_of_log(
 def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
     result, campaign = found.result, found.campaign
     excerpts = Excerpts(Path(campaign.models.agent.root))
-    graph = focused(causal_graph(result.outcome), verbose) if result.outcome is not None else None
+    is_shown = style != "text" or verbose
+    graph = focused(causal_graph(result.outcome), verbose) if is_shown and result.outcome is not None else None
     if style in _DRAWN:
         if graph is None or not graph.ends:
             raise Unusable(
@@ -191,9 +192,7 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
         most = len(found.fault.causes.ranked) if found.fault is not None and verbose else MOST_CAUSES
         text, plain = story_text(story, found.run_id, excerpts, most), story_data(story, found.run_id, excerpts)
         if graph is not None:
-            text += (
-                f"\nthe causal graph, each node with the numbers of its causes:\n{graph_text(graph)}" if verbose else ""
-            )
+            text += f"\nthe causal graph, each node with the numbers of its causes:\n{graph_text(graph)}"
             plain["graph"] = graph_data(graph, excerpts)
         if found.is_same:
             contrast = campaign.contrast(result, found.results)

@@ -4,6 +4,7 @@
 """
 
 import errno
+import gc
 import os
 import sys
 from collections.abc import Sequence
@@ -89,7 +90,10 @@ class _Subcommands(click.Group):
         """The command in its file, where the table names one."""
         if cmd_name not in COMMANDS:
             return None
+        gc.disable()  # nothing of what is imported here is garbage
         found: click.Command = named(f"{COMMANDS[cmd_name][0]}:command")
+        gc.freeze()
+        gc.enable()
         return found
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

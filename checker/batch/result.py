@@ -8,7 +8,7 @@ from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from enum import Enum
 from functools import cache, partial
 from operator import attrgetter
-from types import UnionType
+from types import NoneType, UnionType
 from typing import Any, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
 from checker.batch.kept_trace import read_trace, write_trace
@@ -139,7 +139,7 @@ def _reader(kind: Any) -> Callable[[Any], Any] | None:
         return partial(_read_sequence, inner[0])
     if origin is tuple:
         return partial(_read_all, inner[0]) if inner[-1] is Ellipsis else partial(_read_each, inner)
-    return partial(_read_one_of, inner) if origin in (Union, UnionType) else None
+    return _choice_of(inner) if origin in (Union, UnionType) else None
 
 
 def _read_fields(kind: Any, readers: dict[str, Callable[[Any], Any] | None], value: dict[str, Any]) -> Any:
@@ -159,6 +159,16 @@ def _read_all(kind: Any, value: list[Any]) -> tuple[Any, ...]:
 
 def _read_each(kinds: tuple[Any, ...], value: list[Any]) -> tuple[Any, ...]:
     return tuple(_read(one, item) for one, item in zip(kinds, value, strict=False))
+
+
+def _choice_of(kinds: tuple[Any, ...]) -> Callable[[Any], Any]:
+    """What reads a value of one of some types: with one record and None among them, there is nothing to choose."""
+    records = [one for one in kinds if one is not NoneType]
+    return partial(_read_or_none, records[0]) if len(records) == 1 else partial(_read_one_of, kinds)
+
+
+def _read_or_none(kind: Any, value: Any) -> Any:
+    return None if value is None else _read(kind, value)
 
 
 def _read_one_of(kinds: tuple[Any, ...], value: Any) -> Any:

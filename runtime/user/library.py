@@ -36,6 +36,12 @@ class Library:
 NO_LIBRARY = Library()
 
 
+@cache
+def _installed() -> tuple[EntryPoint, ...]:
+    """The entry points of installed packages: to look for them takes longer than to read a small model."""
+    return tuple(entry_points(group=ENTRY_POINTS))
+
+
 def load_library(
     root: Path, files: Sequence[str], packages: Iterable[EntryPoint] | None = None, seconds: float = USUAL
 ) -> Library:
@@ -46,7 +52,7 @@ def load_library(
     """
     WATCH.seconds = seconds
     if packages is None:
-        packages = entry_points(group=ENTRY_POINTS)
+        packages = _installed()
     found: list[tuple[str, Constraint]] = []
     texts: dict[str, str] = {}
     for name in dict.fromkeys(files):

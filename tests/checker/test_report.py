@@ -56,6 +56,13 @@ def test_the_text_names_line_condition_and_command(findings: Findings) -> None:
     assert f"nddlc explain {findings.run_id}#16" in text
 
 
+def test_z3_is_asked_once_of_the_conflict_that_a_story_tells(campaign: Campaign, findings: Findings) -> None:
+    fault = findings.faults[0]
+    example = next(one for one in findings.results if one.number == fault.bucket.example)
+    assert fault.confirmation is not None
+    assert campaign.story(example, fault).confirmation is fault.confirmation
+
+
 def test_the_json_is_strict_and_complete(findings: Findings) -> None:
     text = json_report(findings, Excerpts(ROOT))
     data = json.loads(text, parse_constant=lambda word: pytest.fail(word))
