@@ -132,9 +132,15 @@ class Draws:
         return list(found)
 
     def next_change(self, view: PlanView, tick: int) -> float:
-        """The first tick at which a planned token that has not begun needs another value."""
+        """The first tick after `tick` at which a planned token that has not begun needs another value.
+
+        That is the very next one where the token has been moved since, as when others were put in front of it.
+        """
         times = [inf]
         for each in self.open:
             if view.is_alive(each.token, each.key) and not view.is_started(each.token, tick):
-                times.append((each.index + 1) * self.world.parameters[each.parameter].update)
+                parameter = self.world.parameters[each.parameter]
+                begin = max(int(view.lower(view.start(each.token))), tick + 1)
+                is_moved = update_index(parameter, begin) != each.index
+                times.append(tick + 1 if is_moved else (each.index + 1) * parameter.update)
         return min(times)
