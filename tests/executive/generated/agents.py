@@ -7,7 +7,7 @@ from typing import Literal
 
 Bounds = tuple[int, int]
 STORE = 5  # what the store of a planner holds
-Kind = Literal["script", "counter", "mirror", "command", "task"]
+Kind = Literal["script", "counter", "mirror", "command", "task", "horn"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +74,8 @@ class Line:
         elif self.kind == "counter":
             kind = "int" if self.step == 1 else "float"
             predicates, default = f"predicate At {{ {kind} v; }}", "At"
+        elif self.kind == "horn":
+            predicates, default = "predicate Quiet { } predicate Loud { int v; }", "Quiet"
         elif self.kind == "mirror":
             kind = "int" if self.copied is None or self.copied.step == 1 else "float"
             predicates, default = f"predicate Dark {{ }} predicate Lit {{ {kind} v; }}", "Dark"
@@ -94,7 +96,7 @@ class Line:
             yield f"{name}::At {{ duration == {self.steps[0]}; meets(object.At next); next.v == v + {self.step}; }}"
         elif self.kind == "mirror":
             assert self.copied is not None
-            when, value = ("At", "v") if self.copied.kind == "counter" else ("S1", "7")
+            when, value = {"counter": ("At", "v"), "horn": ("Loud", "v")}.get(self.copied.kind, ("S1", "7"))
             yield f"{self.copied.class_name}::{when} {{ equals({name}.Lit m); m.v == {value}; }}"
         elif self.kind == "command":
             most = f" n <= {self.most};" if self.most is not None else ""
@@ -159,7 +161,7 @@ class Reactor:
 
     def observed(self) -> list[Line]:
         """Those of them that it asks for nothing."""
-        return [line for line in self.external() if line.kind in ("script", "counter", "mirror")]
+        return [line for line in self.external() if line.kind not in ("command", "task")]
 
     def model(self) -> str:
         """Its model."""
@@ -176,6 +178,57 @@ class Reactor:
             text.append(f"{line.class_name} {line.name} = new {line.class_name}({mode});")
         text += [f"{line.class_name} {line.name} = new {line.class_name}(Internal);" for line in self.lines]
         return "\n".join([*text, "close();", *filter(None, (line.fact() for line in self.lines)), ""])
+
+
+@dataclass(slots=True)
+class Coded(Reactor):
+    """A reactor in Python: what it says of its own timeline, asks of others and takes back, and at which ticks."""
+
+    says: tuple[tuple[int, int], ...] = ()  # ticks, and the value of `Loud`; 0 for `Quiet`
+    asks: tuple[tuple[int, Line, int, Bounds, int], ...] = ()  # a tick, whom, n, when to start, the tick of recall
+    answers: tuple[tuple[Line, Line, int], ...] = ()  # whenever the first holds something new, the second is asked
+
+    def external(self) -> list[Line]:
+        """The timelines that it uses, once each."""
+        found = [line for _, line, *_ in self.asks]
+        return list(dict.fromkeys([*found, *(line for pair in self.answers for line in pair[:2])]))
+
+    def code(self) -> str:
+        """Its text."""
+        asks = [(at, line.name, n, start, recall) for at, line, n, start, recall in self.asks]
+        answers = [(seen.name, line.name, n) for seen, line, n in self.answers]
+        own = self.lines[0].name
+        return CODE.format(says=dict(self.says), asks=asks, answers=answers, own=own)
+
+
+CODE = """from runtime.user.reactor import Now, Reactor
+
+SAYS, ASKS, ANSWERS = {says!r}, {asks!r}, {answers!r}
+
+
+class Hand(Reactor):
+    def __init__(self, settings):
+        self.numbers = {{}}
+
+    def tick(self, now: Now) -> None:
+        if now.tick == 0:
+            for at in {{*SAYS, *(ask[0] for ask in ASKS), *(ask[4] for ask in ASKS)}}:
+                if at > 0:
+                    now.wake(at)
+        value = SAYS.get(now.tick)
+        if value:
+            now.publish("{own}", "Loud", v=value)
+        elif value is not None:
+            now.publish("{own}", "Quiet")
+        for k, (at, line, n, start, recall) in enumerate(ASKS):
+            if at == now.tick:
+                self.numbers[k] = now.ask(line, "Do", start=start, n=n)
+            elif recall == now.tick:
+                now.recall(self.numbers[k])
+        for seen, line, n in ANSWERS:
+            if seen in now.news and now.tick:
+                now.ask(line, "Do", start=(now.tick + 1, now.tick + 9), n=n)
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,8 +263,11 @@ class RandomAgent:
         text = ["[mission]", f'name = "{self.name}"', f"final_tick = {self.final_tick}"]
         text.append(f'on_failure = "{self.on_failure}"')
         for one in self.reactors:
-            text += ["", "[[reactor]]", f'name = "{one.name}"', f'model = "{one.name}.nddl"']
-            text += [f"latency = {one.latency}", f"lookahead = {one.lookahead}"]
+            text += ["", "[[reactor]]", f'name = "{one.name}"']
+            if isinstance(one, Coded):
+                text.append(f'code = "{one.name}.py:Hand"')
+            else:
+                text += [f'model = "{one.name}.nddl"', f"latency = {one.latency}", f"lookahead = {one.lookahead}"]
             text.append(f"internal = {[line.name for line in one.lines]}")
             text.append(f"external = {[line.name for line in one.external()]}")
             if one.max_steps is not None:
@@ -241,7 +297,9 @@ class RandomAgent:
         lines = [line for one in self.reactors for line in one.lines]
         if self.on_failure != "abort_agent" or any(goal.recall is not None for goal in self.goals):
             return None
-        if any(line.drawn for line in lines) or any(one.early or one.late for one in self.reactors):
+        if any(isinstance(one, Coded) or one.early or one.late for one in self.reactors):
+            return None
+        if any(line.drawn for line in lines):
             return None
         text = [f'<Agent name="{self.name}" finalTick="{self.final_tick}">', '  <StepClock steps="50"/>']
         for one in self.reactors:
@@ -270,7 +328,10 @@ class RandomAgent:
     def write(self, folder: Path) -> Path:
         """Write its models and its mission file into a folder; the mission file."""
         for one in self.reactors:
-            (folder / f"{one.name}.nddl").write_text(one.model())
+            if isinstance(one, Coded):
+                (folder / f"{one.name}.py").write_text(one.code())
+            else:
+                (folder / f"{one.name}.nddl").write_text(one.model())
         file = folder / "mission.toml"
         file.write_text(self.mission_file())
         return file

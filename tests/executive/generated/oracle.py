@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from tests.executive.generated.agents import RandomAgent, Reactor
+from tests.executive.generated.agents import Coded, RandomAgent, Reactor
 
 Data = dict[str, Any]
 BOUNDS = {"inf": float("inf"), "-inf": float("-inf")}
@@ -184,7 +184,7 @@ class Oracle:
         if owner.lookahead == 0:
             self.say(event, "its owner takes no goals")
         reach = tick + self.latency(owner) + owner.lookahead
-        if one.start[0] > reach:
+        if one.start[0] > reach and not isinstance(sender, Coded):
             self.say(event, f"the dispatch window ends at {reach}, it starts at {one.start[0]}")
         if one.start[1] <= tick:
             self.say(event, "it is too late to ask")
@@ -236,7 +236,8 @@ class Oracle:
         elif one.recalled is not None:
             self.say(event, "recalled twice")
         else:
-            if one.sender and one.achieved is not None and one.achieved < event["tick"]:
+            is_told = one.sender and not isinstance(self.reactor(one.sender), Coded)
+            if is_told and one.achieved is not None and one.achieved < event["tick"]:
                 self.say(event, "it was achieved")
             one.recalled = event["tick"]
             if not one.sender and self.agent.goals[-1 - one.number].recall != event["tick"]:

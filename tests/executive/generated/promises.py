@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from tests.executive.generated.agents import STORE, Child, Line, Reactor
+from tests.executive.generated.agents import STORE, Child, Coded, Line, Reactor
 from tests.executive.generated.oracle import Asked, Held, Oracle, bounds
 
 INFINITE = float("inf")
@@ -16,7 +16,9 @@ def broken_promises(oracle: Oracle) -> Iterator[str]:
     for reactor in oracle.agent.reactors:
         for line in reactor.lines:
             held = oracle.held.get(line.name, [])
-            if line.kind in ("script", "counter"):
+            if isinstance(reactor, Coded):
+                yield from of_what_is_said(oracle, reactor, held)
+            elif line.kind in ("script", "counter"):
                 yield from of_what_happens_by_itself(oracle, line, held)
             elif line.kind == "mirror":
                 yield from of_a_mirror(oracle, line, held)
@@ -96,6 +98,16 @@ def of_sum(step: float, count: int) -> float:
     return total
 
 
+def of_what_is_said(oracle: Oracle, reactor: Coded, held: list[Held]) -> Iterator[str]:
+    """A reactor in Python says what is in its text."""
+    last = oracle.events[-1]["tick"]
+    wanted = [one for one in reactor.says if one[0] <= last]
+    got = [(one.start, one.arguments.get("v", 0)) for one in held if one.predicate != "Failed"]
+    sure = [one for one in wanted if one[0] < last]
+    if got[: len(sure)] != sure or any(one not in wanted for one in got):
+        yield f"{reactor.name} is to say {wanted}, and said {got}"
+
+
 def of_a_mirror(oracle: Oracle, line: Line, held: list[Held]) -> Iterator[str]:
     """A mirror shows at the very tick what it copies; at the final tick nothing new is begun."""
     assert line.copied is not None
@@ -103,7 +115,7 @@ def of_a_mirror(oracle: Oracle, line: Line, held: list[Held]) -> Iterator[str]:
     if owner.name in oracle.relaxed or owner.max_steps is not None:
         return
     end = min(oracle.events[-1]["tick"], oracle.killed_at(line.name), oracle.killed_at(line.copied.name))
-    shown = "S1" if line.copied.kind == "script" else "At"
+    shown = {"script": "S1", "horn": "Loud"}.get(line.copied.kind, "At")
     for one in oracle.held[line.copied.name]:
         if one.start >= end:
             break

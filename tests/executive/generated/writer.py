@@ -4,7 +4,7 @@ import random
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from tests.executive.generated.agents import Child, Goal, Line, RandomAgent, Reactor
+from tests.executive.generated.agents import Child, Coded, Goal, Line, RandomAgent, Reactor
 
 RELATIONS: tuple[Literal["contains", "meets", "met_by", "follows"], ...] = (
     "contains",
@@ -163,7 +163,34 @@ def enriched(rich: random.Random, agent: RandomAgent) -> RandomAgent:
             if line.kind in ("command", "task") and rich.random() < 0.25:
                 rich.choice((one.early, one.late)).append(line)
     agent.goals = [replace(goal, line=renewed(goal.line)) for goal in agent.goals]
+    if rich.random() < 0.5:
+        add_hand(rich, agent)
     return agent
+
+
+def add_hand(rich: random.Random, agent: RandomAgent) -> None:
+    """Add a reactor in Python, which asks and takes back at run time, and lamps that show what it says."""
+    planners = [one for one in agent.reactors if one.lookahead > 1]
+    is_shown = rich.random() < 0.5  # then nothing that it uses may be its user's
+    takers = [one for one in agent.reactors if one.lookahead == 1 or (one in planners and not is_shown)]
+    lines = [line for one in takers for line in one.lines if line.kind in ("command", "task")]
+    if not lines:
+        return
+    scripts = [line for one in agent.reactors for line in one.lines if line.kind == "script"]
+    last = agent.final_tick
+    horn = Line("horn", "horn")
+    says = {rich.randint(1, last - 1): rich.randint(0, 3) for _ in range(rich.randint(0, 4))}
+    asks = []
+    for _ in range(rich.randint(0, 3)):
+        at = rich.randint(0, last - 8)
+        first = at + rich.randint(1, 12)
+        recall = at + rich.choice((0, 0, rich.randint(1, 15)))
+        asks.append((at, rich.choice(lines), rich.randint(1, 4), (first, first + rich.choice((0, 5, 30))), recall))
+    answers = tuple((rich.choice(scripts), rich.choice(lines), rich.randint(1, 3)) for _ in range(bool(scripts)))
+    hand = Coded("hand", 0, 0, [horn], says=((0, 0), *sorted(says.items())), asks=tuple(asks), answers=answers)
+    if is_shown and not any(line.kind == "mirror" for line in planners[0].lines):
+        planners[0].lines.append(Line("lamp0", "mirror", copied=horn))
+    agent.reactors.insert(rich.randint(0, len(agent.reactors)), hand)
 
 
 def random_agent(seed: int, plain: bool = False, wide: bool = False, rich: bool = False) -> RandomAgent:
