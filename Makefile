@@ -105,8 +105,8 @@ types: setup
 compiled: build
 	$(PYTEST) -m 'not builds'
 
-# The form of the engine cannot matter to the front end and to pages, and the build has tests of its own.
-APART := $(addprefix tests/,build docs format lint lsp semantics syntax text)
+# The form of the engine cannot matter to the front end, to commands and to pages; the build has tests of its own.
+APART := $(addprefix tests/,build cli docs format lint lsp semantics syntax text)
 
 interpreted: setup
 	NDDLC_INTERPRETED=1 $(PYTEST) -m 'not once' $(filter-out $(APART) %.py tests/__pycache__,$(wildcard tests/*))

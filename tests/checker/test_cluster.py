@@ -18,6 +18,8 @@ from runtime.executive.outcome import Outcome
 from tests.checker.fake_agent import load_linked
 from tests.checker.test_batch import Taker, agent, fly
 
+pytestmark = pytest.mark.once
+
 distributed = pytest.importorskip("distributed")
 
 

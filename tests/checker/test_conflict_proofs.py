@@ -12,6 +12,8 @@ from checker.proofs.places import ModelText
 from runtime.executive.outcome import Conflict, ElementKind
 from tests.checker.mutant_conflicts import conflicts_of_mutants
 
+pytestmark = pytest.mark.once
+
 ROOT = Path(__file__).parents[2]
 GPS = ROOT / "models" / "gps" / "mission.toml"
 # All 10^3 conflicts of the goal: NDDLC_PROOFS=1000.

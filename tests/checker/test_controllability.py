@@ -21,6 +21,8 @@ from nddlc.controllability import command
 from nddlc.inputs import Unusable
 from tests.checker.controllability_games import random_network, wins
 
+pytestmark = pytest.mark.once
+
 GPS = Path(__file__).parents[2] / "models" / "gps"
 DEADLINE = GPS.parent / "templates" / "deadline"
 # The 10^4 networks of the goal: NDDLC_PROOFS=10000.

@@ -24,6 +24,7 @@ def workshop(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.once
 def test_the_fault_is_found_and_explained(workshop: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["check", str(GPS / "mission.toml"), "--missions", MISSIONS]) == 1
     text = capsys.readouterr().out

@@ -19,6 +19,8 @@ from runtime.executive.chance import sample
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from tests.checker.sampling_study import AXES, WORLDS, End, batches, coverages
 
+pytestmark = pytest.mark.once
+
 DESIGNS = ("lhs", "sobol")
 
 

@@ -16,6 +16,8 @@ from nddlc.main import run
 from tests.checker.fake_agent import load_linked
 from tests.checker.test_batch import fly
 
+pytestmark = pytest.mark.once
+
 RUNS = (Run("abcd1234", "/m.toml", 7, 200), Run("00ff00ff", "/n.toml", 8, 5))
 
 

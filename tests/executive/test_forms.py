@@ -16,6 +16,7 @@ COUNT = 40
 MISSIONS = 2
 
 
+@pytest.mark.once
 @pytest.mark.slow
 @pytest.mark.parametrize(("only", "count", "kinds"), [("", COUNT, 3), ("models/auv", 2, 1)])
 def test_mutants_fly_alike_in_both_forms(only: str, count: int, kinds: int) -> None:

@@ -89,6 +89,7 @@ def test_its_own_tokens_are_not_those_of_the_general_reactor(flown: DeterminedRe
     assert all(flown.why_it_lasts(t, row_key(bench.key(t) + 10**6)) is None for t in lasting)
 
 
+@pytest.mark.once
 def test_an_abort_that_hangs_on_what_was_published_before_the_general_reactor_took_over_is_told() -> None:
     mission_file, _ = read_mission(MODELS / "auv/inl/mission.toml")
     assert mission_file is not None

@@ -17,6 +17,7 @@ from tests.executive.test_cases import CASES, loaded
 from tests.executive.test_equal_runs import GOALS, OWNER, USER, toy
 
 
+@pytest.mark.once
 @pytest.mark.parametrize("compiles", [True, False], ids=["determined", "general"])
 @pytest.mark.parametrize("folder", CASES, ids=lambda folder: folder.name)
 def test_the_next_mission_finds_its_reactors_as_they_were_loaded(folder: Path, compiles: bool) -> None:

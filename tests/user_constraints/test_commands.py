@@ -18,6 +18,8 @@ from checker.pinned import pinned
 from nddlc.main import run
 from tests.user_constraints.own import TWICE, written
 
+pytestmark = pytest.mark.once
+
 Captured = pytest.CaptureFixture[str]
 BATHYMETRY = Path(__file__).parents[2] / "models" / "bathymetry"
 BOOM = TWICE.replace("        return (\n", "        assert view.upper(1) < 10, 'too much'\n        return (\n")

@@ -17,6 +17,8 @@ from nddlc.editor import known_to_editor
 from nddlc.main import run
 from tests.user_constraints.own import HEAD, TWICE
 
+pytestmark = pytest.mark.once
+
 Captured = pytest.CaptureFixture[str]
 MODEL = "int x = [1 10];\nint y = [0 13];\ntwice(y, x);\n"
 ROOT = Path(__file__).parents[2]

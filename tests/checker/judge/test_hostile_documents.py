@@ -9,6 +9,8 @@ import pytest
 
 from nddlc.main import run
 
+pytestmark = pytest.mark.once
+
 ROOT = Path(__file__).resolve().parents[3]
 MISSION = str(ROOT / "models/gps/mission.toml")
 UNTIL = 60
