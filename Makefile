@@ -175,7 +175,7 @@ kills: build
 	NDDLC_KILLS=$(KILLS) $(BIN)/python -m pytest -q -rP tests/checker/test_interrupt.py -k killed
 
 variants: build
-	NDDLC_VARIANTS=1 $(BIN)/python -m pytest -q tests/models/test_variants_explained.py
+	NDDLC_VARIANTS=1 $(BIN)/python -m pytest -q tests/models/test_variants_explained.py tests/checker/test_yardstick.py
 
 mutants: build
 	$(BIN)/python -m tests.executive.mutants.campaign $(MUTANTS)

@@ -2,17 +2,34 @@
 
 import os
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from nddlc.main import run
+
 ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A folder where somebody has flown 20 missions of the GPS model on the command line; it is left as it is."""
+    folder = tmp_path_factory.mktemp("project")
+    shutil.copytree(ROOT / "models" / "gps", folder / "gps")
+    before = Path.cwd()
+    os.chdir(folder)
+    try:
+        assert run(["check", "gps/mission.toml", "--missions", "20", "--flights", "4"]) == 1
+    finally:
+        os.chdir(before)
+    yield folder
 
 
 @pytest.fixture
 def checked(client: Any, tmp_path: Path) -> tuple[Any, Path, dict[str, Any]]:
-    """A client whose user has had 40 missions of the GPS model flown."""
+    """A client whose user has had 20 missions of the GPS model flown."""
     shutil.copytree(ROOT / "models" / "gps", tmp_path / "gps")
     client.start(folder=tmp_path)
     rules = tmp_path / "gps" / "rules.nddl"
@@ -20,7 +37,7 @@ def checked(client: Any, tmp_path: Path) -> tuple[Any, Path, dict[str, Any]]:
     result = client.ask(
         "workspace/executeCommand",
         command="nddl.check",
-        arguments=[(tmp_path / "gps" / "mission.toml").as_uri(), 40],
+        arguments=[(tmp_path / "gps" / "mission.toml").as_uri(), 20],
     )
     return client, rules, result
 
@@ -54,24 +71,27 @@ def test_a_failure_stands_at_its_line_until_the_model_changes(checked: Any, tmp_
     assert client.leave() == 0
 
 
-def test_a_report_of_the_command_line_is_found(start_client: Any, checked: Any, tmp_path: Path) -> None:
-    _, rules, _ = checked
+def test_a_report_of_the_command_line_is_found(start_client: Any, project: Path) -> None:
+    rules = project / "gps" / "rules.nddl"
     other = start_client()
-    other.start(folder=tmp_path)
+    other.start(folder=project)
     told = other.open(rules.as_uri(), rules.read_text())
     assert [each["severity"] for each in failures(told)] == [2]
-    later = (tmp_path / "nddlc-report" / "report.json").stat().st_mtime + 10
+    later = (project / "nddlc-report" / "report.json").stat().st_mtime + 10
     navigator = rules.with_name("navigator.nddl")
-    navigator.write_text(navigator.read_text() + "// changed\n")
+    text, times = navigator.read_text(), navigator.stat()
+    navigator.write_text(text + "// changed\n")
     os.utime(navigator, (later, later))
     third = start_client()
-    third.start(folder=tmp_path)
+    third.start(folder=project)
     assert [each["severity"] for each in failures(third.open(rules.as_uri(), rules.read_text()))] == [4]
+    navigator.write_text(text)
+    os.utime(navigator, ns=(times.st_atime_ns, times.st_mtime_ns))
 
 
-def test_the_last_failure_is_explained(checked: Any, tmp_path: Path) -> None:
-    client, _, _ = checked
-    uri = (tmp_path / "gps" / "mission.toml").as_uri()
+def test_the_last_failure_is_explained(client: Any, project: Path) -> None:
+    client.start(folder=project)
+    uri = (project / "gps" / "mission.toml").as_uri()
     told = client.ask("workspace/executeCommand", command="nddl.explain", arguments=[uri])
     assert "GPS_HIT_RATE" in told
     # The last run of that mission, whatever was flown since.
