@@ -61,7 +61,7 @@ FlyBatch = Callable[[Batch, Supervisor], "signal.Signals | None"]  # what `fly_a
 
 
 def fly_all(batch: Batch, supervisor: Supervisor) -> signal.Signals | None:
-    """Fly a batch and give each result to `supervisor`; the signal that ended it before all were flown."""
+    """Fly a batch and give each result to `supervisor`; the signal that came meanwhile, which ends it."""
     tasks = batch.tasks or batch.more()
     if not tasks:
         return None
@@ -95,7 +95,7 @@ class _Pool:
             soonest = min(worker.deadline for worker in self.workers if worker.owed or not worker.is_ready)
             ready = wait([*ends, signalled], min(_MOST_QUIET, max(0.0, soonest - time.monotonic())))
             if signalled in ready:
-                return signal.Signals(os.read(signalled, 1)[0])
+                break
             for worker in list(self.workers):
                 if worker.connection in ready:
                     self._listen(worker)
@@ -103,7 +103,8 @@ class _Pool:
                     self._lose(worker, reason, USER_CODE)
                 elif time.monotonic() > worker.deadline and (worker.owed or not worker.is_ready):
                     self._lose(worker, f"took longer than {self.batch.time_limit:g} s")
-        return None
+        # One that came with the last result, too, is for whoever would fly more.
+        return signal.Signals(os.read(signalled, 1)[0]) if wait([signalled], 0.0) else None
 
     def _refill(self) -> bool:
         """Take the next generation of tasks, if there is one, and have those fly it who are ready."""

@@ -187,6 +187,19 @@ def test_an_interrupt_keeps_what_is_finished() -> None:
     assert 5 <= len(results) < 2_000
 
 
+def test_a_signal_that_comes_with_the_last_result_is_told() -> None:
+    class Stopping(Taker):
+        def take(self, result: MissionResult) -> None:
+            super().take(result)
+            if len(self.results) == 3:
+                os.kill(os.getpid(), signal.SIGTERM)
+
+    taker = Stopping()
+    tasks = [Task(number, number) for number in range(1, 4)]
+    assert fly_all(Batch(load_linked, agent(), tasks, 1, 30.0), taker) is signal.SIGTERM
+    assert len(taker.results) == 3
+
+
 def test_a_store_keeps_runs_and_resumes_them(tmp_path: Path) -> None:
     results = fly(load_linked, range(5), 1)
     run = Run("abcd1234", "/m.toml", 7, 5)
