@@ -22,7 +22,7 @@ class Child:
     least: int | None = None  # the n of a task from which on it asks for this
     waits: bool = False  # it asks only once it has begun
 
-    def text(self, name: str) -> str:
+    def text(self, name: str, parent_has_factor: bool) -> str:
         """The statements of a rule."""
         said = f"{self.line.class_name}.Do {name}"
         if self.relation == "follows":
@@ -32,8 +32,10 @@ class Child:
         else:
             said = f"{self.relation}({said});"
         said += f" {name}.n == n + {self.plus}; {name}.start >= 1; {self.also.format(name)}"
+        if self.line.factor and parent_has_factor:
+            said += f" {name}.x == x * {self.line.factor} + 0.1;"
         if self.before is not None:
-            said = f"{self.before.text(name + '0')} {said} {name}0 before {name};"
+            said = f"{self.before.text(name + '0', parent_has_factor)} {said} {name}0 before {name};"
         if self.least is not None:
             said = f"if (n >= {self.least}) {{ {said} }}"
         return f"if (start <= AGENT_CLOCK) {{ {said} }}" if self.waits else said
@@ -60,6 +62,8 @@ class Line:
     uses: int = 0  # of the store of its planner, from its start on
     returns: bool = False  # at its end it gives back what it used
     step: float = 1  # of a counter
+    factor: float = 0  # of another argument, which is its parent's so many times
+    planned: tuple[int, int] = (0, 0)  # the start and the n of a goal of the model itself
 
     @property
     def class_name(self) -> str:
@@ -80,7 +84,8 @@ class Line:
             kind = "int" if self.copied is None or self.copied.step == 1 else "float"
             predicates, default = f"predicate Dark {{ }} predicate Lit {{ {kind} v; }}", "Dark"
         else:
-            predicates, default = "predicate Rest { } predicate Do { int n; }", "Rest"
+            more = " float x;" if self.factor else ""
+            predicates, default = f"predicate Rest {{ }} predicate Do {{ int n;{more} }}", "Rest"
         name = self.class_name
         return f'class {name} extends AgentTimeline {{ {predicates} {name}(Mode m) {{ super(m, "{default}"); }} }}'
 
@@ -112,7 +117,7 @@ class Line:
             if self.lasts[1] is not None:
                 lasts += f" duration <= {self.lasts[1]};"
             inside = f" contained_by({self.within.class_name}.S1 w);" if self.within is not None else ""
-            asked = " ".join(child.text(f"c{number}") for number, child in enumerate(self.children))
+            asked = " ".join(child.text(f"c{number}", self.factor > 0) for number, child in enumerate(self.children))
             yield f"{name}::Do {{ {lasts}{inside} {asked} {self.ties}{self.store()} }}"
 
     @property
@@ -131,6 +136,9 @@ class Line:
 
     def fact(self) -> str:
         """How it begins, if something must be said."""
+        if self.planned[0]:
+            goal = f"{self.name}0"
+            return f"goal({self.name}.Do {goal}); {goal}.start == {self.planned[0]}; eq({goal}.n, {self.planned[1]});"
         if self.kind != "counter":
             return ""
         return f"fact({self.name}.At {self.name}0); {self.name}0.start == 0; eq({self.name}0.v, 0);"
@@ -153,6 +161,7 @@ class Reactor:
     forbids_failed: bool = False  # its model has no room for a timeline that failed
     early: list[Line] = field(default_factory=list)
     late: list[Line] = field(default_factory=list)
+    solver: str = ""  # its table
 
     def external(self) -> list[Line]:
         """The timelines that it uses, once each."""
@@ -242,6 +251,7 @@ class Goal:
     is_mandatory: bool = False
     duration: Bounds | None = None
     recall: int | None = None
+    x: tuple[float, float] | None = None
 
 
 @dataclass(slots=True)
@@ -268,6 +278,8 @@ class RandomAgent:
                 text.append(f'code = "{one.name}.py:Hand"')
             else:
                 text += [f'model = "{one.name}.nddl"', f"latency = {one.latency}", f"lookahead = {one.lookahead}"]
+            if one.solver:
+                text.append(f'solver = "{one.name}.toml"')
             text.append(f"internal = {[line.name for line in one.lines]}")
             text.append(f"external = {[line.name for line in one.external()]}")
             if one.max_steps is not None:
@@ -288,8 +300,11 @@ class RandomAgent:
                 text.append(f"duration = {list(goal.duration)}")
             if goal.recall is not None:
                 text.append(f"recall = {goal.recall}")
+            text.append("[goal.parameters]")
             if goal.n is not None:
-                text += ["[goal.parameters]", f"n = {goal.n}"]
+                text.append(f"n = {goal.n}")
+            if goal.x:
+                text.append(f"x = {list(goal.x)}")
         return "\n".join([*text, "", "[check]", "missions = 1", "seed = 1", ""])
 
     def agent_file(self) -> str | None:
@@ -297,7 +312,7 @@ class RandomAgent:
         lines = [line for one in self.reactors for line in one.lines]
         if self.on_failure != "abort_agent" or any(goal.recall is not None for goal in self.goals):
             return None
-        if any(isinstance(one, Coded) or one.early or one.late for one in self.reactors):
+        if any(isinstance(one, Coded) or one.early or one.late or one.solver for one in self.reactors):
             return None
         if any(line.drawn for line in lines):
             return None
@@ -322,6 +337,8 @@ class RandomAgent:
                 text.append(_variable("duration", f'min="{goal.duration[0]}" max="{goal.duration[1]}"'))
             if goal.n is not None:
                 text.append(_variable("n", f'value="{goal.n}"'))
+            if goal.x:
+                text.append(_variable("x", f'min="{goal.x[0]}" max="{goal.x[1]}"', "float"))
             text.append("  </Goal>")
         return "\n".join([*text, "</Agent>", ""])
 
@@ -332,10 +349,12 @@ class RandomAgent:
                 (folder / f"{one.name}.py").write_text(one.code())
             else:
                 (folder / f"{one.name}.nddl").write_text(one.model())
+            if one.solver:
+                (folder / f"{one.name}.toml").write_text(one.solver)
         file = folder / "mission.toml"
         file.write_text(self.mission_file())
         return file
 
 
-def _variable(name: str, domain: str) -> str:
-    return f'    <Variable name="{name}"><int {domain}/></Variable>'
+def _variable(name: str, domain: str, kind: str = "int") -> str:
+    return f'    <Variable name="{name}"><{kind} {domain}/></Variable>'

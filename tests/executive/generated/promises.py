@@ -130,7 +130,7 @@ def of_what_is_asked_for(oracle: Oracle, line: Line, held: list[Held]) -> Iterat
     """Nothing begins that nobody has asked for, and what is asked for once is done once."""
     asked = sorted((one for one in oracle.asked.values() if one.line == line.name), key=lambda one: one.start[1])
     used: set[int] = set()
-    if line.kind == "command" and line.rest:
+    if (line.kind == "command" and line.rest) or line.planned[0]:
         return  # anything else may come where nothing has no room (the last choice of a present)
     for one in (one for one in held if one.predicate == "Do"):
         fitting = [each for each in asked if each.number not in used and each.takes(one) and each.is_open(one.start)]

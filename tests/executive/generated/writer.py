@@ -130,6 +130,10 @@ def widened(more: random.Random, children: tuple[Child, ...], able: list[Line]) 
     return tuple(found), relation.format(first, first + 1, other)
 
 
+MANAGERS = ("ResourceThreatManager", "ThreatManager", "OpenConditionManager", "UnboundVariableManager")
+SOLVER = "\n".join(f'[[manager]]\ncomponent = "{name}"\n' for name in MANAGERS)
+
+
 def enriched(rich: random.Random, agent: RandomAgent) -> RandomAgent:
     """An agent with draws, stores, numbers with fractions, and timelines that are early or late."""
     changed: dict[str, Line] = {}
@@ -148,6 +152,10 @@ def enriched(rich: random.Random, agent: RandomAgent) -> RandomAgent:
             found = replace(found, drawn=rich.randint(1, 5), period=rich.choice((0, 1, 3, 10)))
         if line.kind == "task" and rich.random() < 0.5:
             found = replace(found, uses=rich.randint(1, 3), returns=rich.random() < 0.7)
+        if line.kind in ("command", "task") and rich.random() < 0.4:
+            found = replace(found, factor=rich.choice((0.5, 1.0, 3.3)))
+        if line.kind == "task" and rich.random() < 0.1:
+            found = replace(found, planned=(rich.randint(3, 30), rich.randint(1, 4)))
         if line.kind == "counter" and rich.random() < 0.5:
             found = replace(found, step=rich.choice((0.1, 0.25, 1.7)))
         changed[line.name] = found
@@ -162,7 +170,13 @@ def enriched(rich: random.Random, agent: RandomAgent) -> RandomAgent:
         for line in one.lines:
             if line.kind in ("command", "task") and rich.random() < 0.25:
                 rich.choice((one.early, one.late)).append(line)
+        if any(line.uses for line in one.lines) and rich.random() < 0.5:
+            one.solver = SOLVER
     agent.goals = [replace(goal, line=renewed(goal.line)) for goal in agent.goals]
+    for number, goal in enumerate(agent.goals):
+        if goal.line.factor and rich.random() < 0.8:
+            low = rich.choice((0.0, 0.3, 7.5))
+            agent.goals[number] = replace(goal, x=(low, low + rich.choice((0.0, 0.0, 1.5))))
     if rich.random() < 0.5:
         add_hand(rich, agent)
     return agent
