@@ -64,24 +64,30 @@ def test_a_failing_model_ends_with_findings_and_a_reason(agent: None, capsys: py
 
 
 def test_a_model_that_keeps_the_limit_holds(agent: None, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["check", str(GPS / "mission.toml"), "--max-failure-rate", "0.2", "--missions", "60"]) == 0
+    assert (
+        run(["check", str(GPS / "mission.toml"), "--flights", "2", "--max-failure-rate", "0.2", "--missions", "60"])
+        == 0
+    )
     assert "HOLDS: the rate is within the accepted 20 %" in capsys.readouterr().out
 
 
 def test_the_json_does_not_depend_on_the_workers(agent: None, tmp_path: Path) -> None:
     for workers in ("1", "2"):
         mission = str(GPS / "mission.toml")
-        assert run(["check", mission, "--workers", workers, "--output", f"out{workers}", "--no-store"]) == 1
+        assert (
+            run(["check", mission, "--flights", "2", "--workers", workers, "--output", f"out{workers}", "--no-store"])
+            == 1
+        )
     for name in ("report.json", "report.html", "report.sarif", "junit.xml"):
         assert (tmp_path / "out1" / name).read_bytes() == (tmp_path / "out2" / name).read_bytes()
 
 
 def test_a_batch_is_resumed(agent: None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     mission = str(GPS / "mission.toml")
-    assert run(["check", mission, "--missions", "20", "--format", "json"]) == 1
+    assert run(["check", mission, "--flights", "2", "--missions", "20", "--format", "json"]) == 1
     first = capsys.readouterr().out
     plug(monkeypatch, load_broken)  # nothing that is flown again can succeed
-    assert run(["check", mission, "--missions", "20", "--format", "json", "--resume"]) == 1
+    assert run(["check", mission, "--flights", "2", "--missions", "20", "--format", "json", "--resume"]) == 1
     assert json.loads(capsys.readouterr().out)["missions"] == json.loads(first)["missions"]
 
 
@@ -99,7 +105,7 @@ def test_errors_of_the_tool_are_counted_apart(
 
 
 def test_a_mission_that_passed_is_flown_again_on_request(agent: None, capsys: pytest.CaptureFixture[str]) -> None:
-    run(["check", str(GPS / "mission.toml"), "--missions", "20"])
+    run(["check", str(GPS / "mission.toml"), "--flights", "2", "--missions", "20"])
     capsys.readouterr()
     assert run(["explain", "latest#1", "--events"]) == 0
     text = capsys.readouterr().out

@@ -89,7 +89,7 @@ def mission(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_a_check_that_holds_says_what_was_lost(mission: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["check", "mission.toml", "--missions", "10"]) == 0
+    assert run(["check", "mission.toml", "--flights", "2", "--missions", "10"]) == 0
     text = capsys.readouterr().out
     assert "HOLDS" in text
     assert "cost: 10 goals rejected, 10 goals late, 10 repairs of plans" in text
@@ -111,22 +111,22 @@ def test_a_check_that_holds_says_what_was_lost(mission: Path, capsys: pytest.Cap
 def test_a_limit_on_losses_fails_the_missions_without_flying_again(
     mission: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run(["check", "mission.toml", "--missions", "10"]) == 0
+    assert run(["check", "mission.toml", "--flights", "2", "--missions", "10"]) == 0
     mission.write_text(mission.read_text().replace("[check]", "[check]\nmax_repairs = 3\nmax_rejected = 1"))
     capsys.readouterr()
-    assert run(["check", "mission.toml", "--missions", "10"]) == 1
+    assert run(["check", "mission.toml", "--flights", "2", "--missions", "10"]) == 1
     text = capsys.readouterr().out
     assert "gps: 10 missions, 10 failed" in text
     assert "L1 more goals were given up than [check] allows: 10 missions (100 %)" in text
     assert "2 goals were given up, and `max_rejected` is 1" in text
-    assert run(["explain", "latest#4"]) == 0
+    assert run(["explain", "latest#4", "--flights", "2"]) == 0
     story = capsys.readouterr().out
     assert "too late" in story
     assert "the planner found no place for it" in story
     mission.write_text(mission.read_text().replace("max_rejected = 1", "max_rejected = 2"))
-    assert run(["check", "mission.toml", "--missions", "10"]) == 0
+    assert run(["check", "mission.toml", "--flights", "2", "--missions", "10"]) == 0
     mission.write_text(mission.read_text().replace("max_rejected = 2", "max_rejected = -1"))
-    assert run(["check", "mission.toml", "--missions", "10"]) == 2
+    assert run(["check", "mission.toml", "--flights", "2", "--missions", "10"]) == 2
     assert "`max_rejected` must be at least 0, not -1" in capsys.readouterr().out
 
 
@@ -137,7 +137,7 @@ def test_too_many_repairs_are_blamed_on_the_line_that_was_repaired(
     psim = mission.parent / "navigator.nddl"
     psim.write_text(psim.read_text().replace("SURFACE_MAX = 90;", "SURFACE_MAX = 64;"))
     mission.write_text(mission.read_text().replace("[check]", "[check]\nmax_repairs = 0"))
-    assert run(["check", "mission.toml", "--missions", "20"]) == 1
+    assert run(["check", "mission.toml", "--flights", "4", "--missions", "20"]) == 1
     data = json.loads(Path("nddlc-report/report.json").read_text())
     repaired = [one for one in data["missions"] if one["losses"]["repairs"]]
     assert repaired

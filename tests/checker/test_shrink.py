@@ -117,7 +117,7 @@ def test_a_promoted_mission_is_flown_first_until_it_passes(
 ) -> None:
     campaign(tmp_path, RULE, missions=30)
     monkeypatch.chdir(tmp_path)
-    assert run(["check", "mission.toml", "--max-failure-rate", "1"]) == 0
+    assert run(["check", "mission.toml", "--flights", "2", "--max-failure-rate", "1"]) == 0
     capsys.readouterr()
     assert run(["shrink", "latest", "--format", "json"]) == 0
     shrunk = json.loads(capsys.readouterr().out)
@@ -128,18 +128,18 @@ def test_a_promoted_mission_is_flown_first_until_it_passes(
     assert case["parameters"] == shrunk["parameters"]
     capsys.readouterr()
     # The rate is accepted, the case is not.
-    assert run(["check", "mission.toml", "--missions", "2", "--max-failure-rate", "1"]) == 1
+    assert run(["check", "mission.toml", "--flights", "2", "--missions", "2", "--max-failure-rate", "1"]) == 1
     told = capsys.readouterr().out
     assert 'case `wet "pump"` (F3 at pump.nddl:14' in told
     assert "FAILS: 1 regression case still fails" in told
     (again,) = [one for one in json.loads(Path("nddlc-report/report.json").read_text())["cases"] if one["name"]]
     assert (again["name"], again["passes"], again["verdict"]) == ('wet "pump"', False, "FAIL")
     # What is in the store already does not keep it from being flown.
-    assert run(["check", "mission.toml", "--missions", "2", "--max-failure-rate", "1"]) == 1
+    assert run(["check", "mission.toml", "--flights", "2", "--missions", "2", "--max-failure-rate", "1"]) == 1
     assert 'case `wet "pump"`' in capsys.readouterr().out
     model = Path("pump.nddl")
     model.write_text(model.read_text().replace("r >= 2.0", "r >= -2.0"))
-    assert run(["check", "mission.toml", "--missions", "2"]) == 0
+    assert run(["check", "mission.toml", "--flights", "2", "--missions", "2"]) == 0
     assert "flown first: none of them fails any more" in capsys.readouterr().out
 
 

@@ -95,7 +95,7 @@ def test_what_is_no_store_is_not_called_a_bug(
     assert callable(make)
     path = tmp_path / "x.sqlite"
     make(path)
-    assert run(["check", "models/gps/mission.toml", "--missions", "2", "--store", str(path)]) == 2
+    assert run(["check", "models/gps/mission.toml", "--flights", "2", "--missions", "2", "--store", str(path)]) == 2
     assert complaint in capsys.readouterr().err
     assert run(["store", "check", str(path)]) == 2
 
