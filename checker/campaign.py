@@ -37,7 +37,7 @@ from checker.sampling.seeds import mission_seed
 from checker.schedule import Schedule, counted, is_random, make_task
 from checker.shrink import Shrunk, shrink
 from checker.stopping import StopRule
-from checker.story import Story, tell
+from checker.story import Story, suspects, tell
 from runtime.executive.configuration import AgentConfiguration
 
 _MOST_STORIES = 8
@@ -195,10 +195,12 @@ class Campaign:
                 flyer.dismiss()  # it may be in the middle of a flight
             return findings
 
-    def contrast(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Contrast | None:
+    def contrast(
+        self, failed: MissionResult, results: tuple[MissionResult, ...], fault: Fault | None = None
+    ) -> Contrast | None:
         """What sets a failed mission apart from the nearest one that passes; flown in this process."""
-
-        return find_contrast(failed, results, with_point(self.models.agent, failed.point), self._traced)
+        wanted = suspects(failed.outcome, fault) if failed.outcome is not None else ()
+        return find_contrast(failed, results, with_point(self.models.agent, failed.point), self._traced, wanted)
 
     def shrink(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Shrunk | None:
         """The simplest mission that fails as `failed` does; flown in this process."""

@@ -4,9 +4,9 @@ Delta debugging (Zeller and Hildebrandt, 2002) over the parameters that are draw
 passing mission fail. Then the two missions that differ in that set alone, tick by tick from where they part.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Iterable, Sequence
 from dataclasses import dataclass
-from itertools import combinations, groupby
+from itertools import combinations, groupby, takewhile
 
 from checker.batch.result import MissionResult
 from checker.buckets import bucket_key
@@ -56,9 +56,16 @@ class Contrast:
 
 
 def find_contrast(
-    failed: MissionResult, results: Sequence[MissionResult], agent: AgentConfiguration, trace: Trace
+    failed: MissionResult,
+    results: Sequence[MissionResult],
+    agent: AgentConfiguration,
+    trace: Trace,
+    suspects: Container[str] = (),
 ) -> Contrast | None:
-    """The contrast of a failed mission; None where no mission passes, or what is redrawn decides."""
+    """The contrast of a failed mission; None where no mission passes, or what is redrawn decides.
+
+    The values of `suspects` alone are tried before those of all parameters: most flights pass, and last to the end.
+    """
     space = Space(agent, results, redrawn=False)
     row = space.row(failed)
     passing = [result for result in results if result.verdict is Verdict.PASS]
@@ -70,9 +77,13 @@ def find_contrast(
     assert nearest_row is not None
     search = SubsetSearch(space, failed, failing_point, space.point(nearest_row), trace)
     differing = tuple(n for n, (a, b) in enumerate(zip(search.failing, search.passing, strict=True)) if a != b)
-    if not differing or search.fails(()) or not search.fails(differing):
+    likely = tuple(n for n in differing if space.names[n] in suspects)
+    if not differing or search.fails(()):
         return None
-    decisive, is_smallest = search.smallest(differing)
+    begun = likely if likely and search.fails(likely) else differing
+    if not search.fails(begun):
+        return None
+    decisive, is_smallest = search.smallest(begun, differing)
     chosen, other = search.flown[decisive], search.flown[()]
     assert chosen.outcome is not None and other.outcome is not None
     partings = _partings(chosen.outcome.events, other.outcome.events)
@@ -103,10 +114,9 @@ class SubsetSearch:
             self.flown[chosen] = result
         return result.verdict is Verdict.FAIL and bucket_key(result) == bucket_key(self.failed)
 
-    def smallest(self, chosen: tuple[int, ...]) -> tuple[tuple[int, ...], bool]:
-        """A set of which no part fails, and whether none is smaller: single parameters and pairs are all tried."""
-        whole = chosen
-        for number in whole:
+    def smallest(self, chosen: tuple[int, ...], whole: tuple[int, ...]) -> tuple[tuple[int, ...], bool]:
+        """A set of which no part fails, and whether none of the `whole` is smaller: singles and pairs are all tried."""
+        for number in chosen:
             rest = tuple(one for one in chosen if one != number)
             if rest and self.fails(rest):
                 chosen = rest
@@ -131,8 +141,9 @@ def _distance(space: Space, point: Point, result: MissionResult) -> float:
 
 
 def _partings(failing: Sequence[Event], passing: Sequence[Event]) -> tuple[Parting, ...]:
-    """The ticks at which two traces differ; draws are left out, for they differ by construction."""
-    one, other = _by_tick(failing), _by_tick(passing)
+    """The ticks at which two traces differ, until the first one ends; draws, which differ by construction, left out."""
+    end = failing[-1].tick if failing else 0
+    one, other = _by_tick(failing), _by_tick(takewhile(lambda event: event.tick <= end, passing))
     found = []
     for tick in sorted({*one, *other}):
         here, there = one.get(tick, {}), other.get(tick, {})
@@ -143,7 +154,7 @@ def _partings(failing: Sequence[Event], passing: Sequence[Event]) -> tuple[Parti
     return tuple(found)
 
 
-def _by_tick(events: Sequence[Event]) -> dict[int, dict[object, Event]]:
+def _by_tick(events: Iterable[Event]) -> dict[int, dict[object, Event]]:
     """What happened at each tick, by what can be compared: numbers of events, tokens and requests may differ."""
     kept = [event for event in events if event.kind is not EventKind.SAMPLE]
     grouped = groupby(kept, key=lambda event: event.tick)
@@ -152,5 +163,5 @@ def _by_tick(events: Sequence[Event]) -> dict[int, dict[object, Event]]:
 
 def _comparable(event: Event) -> object:
     reason = event.reason.kind if event.reason is not None else None
-    arguments = tuple(str(one) for one in event.arguments)
-    return (event.kind, event.reactor, event.timeline, event.predicate, arguments, event.stage, event.code, reason)
+    said = (event.reactor, event.timeline, event.predicate, event.arguments)
+    return (event.kind, *said, event.stage, event.code, reason)

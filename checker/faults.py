@@ -1,6 +1,6 @@
 """Buckets of failures in, faults out: those that the same change mends are one fault, with the causes tried for it."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Protocol, TypeVar
 
@@ -41,7 +41,7 @@ def faults_of(
     let: Interruptible = uninterrupted,
 ) -> list[tuple[Bucket, Causes]]:
     """The faults behind buckets, each with its causes: what the first cause of one mends, or the same line where it was
-    flown, is one.
+    flown, is one. So is a bucket without a change that helped, where the first cause of a later one mends it.
 
     Where a signal ends the search, buckets that it did not come to are faults of their own.
     """
@@ -54,7 +54,10 @@ def faults_of(
             causes = let(partial(seeker.causes, missions_of(bucket, results))) or CANCELLED
             same = _at_one_line(found, causes)
         if same is None:
-            found.append((bucket, causes))
+            earlier = let(partial(_also_mended, found, causes, by_number, seeker)) or []
+            joining = [bucket, *(one for one, _ in earlier)]
+            found = [one for one in found if one not in earlier]
+            found.append((joined(joining) if earlier else bucket, causes))
         else:
             found[same] = (joined((found[same][0], bucket)), found[same][1])
     return found
@@ -72,6 +75,16 @@ def _mended(found: Sequence[tuple[Bucket, Causes]], failed: MissionResult, seeke
         if causes.first is not None and seeker.mends(causes.first, failed):
             return number
     return None
+
+
+def _also_mended(
+    found: Sequence[tuple[Bucket, Causes]], causes: Causes, results: Mapping[int, MissionResult], seeker: Seeker
+) -> list[tuple[Bucket, Causes]]:
+    """The buckets before without a change that helped, which the first cause of a later one mends."""
+    if causes.first is None or causes.first.change is None:
+        return []
+    helpless = [one for one in found if one[1].first is None or one[1].first.change is None]
+    return [one for one in helpless if seeker.mends(causes.first, results[one[0].example])]
 
 
 def _at_one_line(found: Sequence[tuple[Bucket, Causes]], causes: Causes) -> int | None:

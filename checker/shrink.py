@@ -101,7 +101,8 @@ def _nominal(shrinker: _Shrinker, space: Space, failed: MissionResult, point: Po
     if search.fails(()):
         chosen: tuple[int, ...] = ()
     else:
-        chosen, _ = search.smallest(tuple(n for n, (a, b) in enumerate(zip(point, middle, strict=True)) if a != b))
+        apart = tuple(n for n, (a, b) in enumerate(zip(point, middle, strict=True)) if a != b)
+        chosen, _ = search.smallest(apart, apart)
     mixed = tuple(point[number] if number in chosen else value for number, value in enumerate(middle))
     shrinker.flights += len(search.flown)
     return (mixed, chosen) if shrinker.fails(space.agent_at(mixed)) else (point, tuple(range(len(point))))

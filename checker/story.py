@@ -113,7 +113,7 @@ def tell(
     assert outcome is not None
     conflict = failed_by(outcome).conflict
     confirmation = _confirmed(result, conflict, fault, text)
-    parameters = _suspects(outcome, fault)
+    parameters = suspects(outcome, fault)
     until = _decided_at(result, outcome)
     draws = _draws(outcome, agent, influence, parameters, until)
     shown = _tokens_of(outcome, influence, parameters, until)
@@ -181,7 +181,7 @@ def _lost(outcome: Outcome, limit: Limit) -> list[Event]:
     return found[:_MOST_LOST]
 
 
-def _suspects(outcome: Outcome, fault: Fault | None) -> tuple[str, ...]:
+def suspects(outcome: Outcome, fault: Fault | None) -> tuple[str, ...]:
     """The parameters that the story begins with: those of the condition, else those that the abort depends on."""
     if fault is not None and fault.condition is not None:
         return fault.condition.parameters

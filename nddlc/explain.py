@@ -195,7 +195,7 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
             text += f"\nthe causal graph, each node with the numbers of its causes:\n{graph_text(graph)}"
             plain["graph"] = graph_data(graph, excerpts)
         if found.is_same:
-            contrast = campaign.contrast(result, found.results)
+            contrast = campaign.contrast(result, found.results, found.fault)
             text += "\n".join(["", *contrast_lines(contrast)]) + "\n" if contrast is not None else ""
             plain["contrast"] = contrast_data(contrast)
     else:

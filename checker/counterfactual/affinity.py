@@ -13,6 +13,9 @@ from checker.mutation.edits import EditSite, SmallEdit
 WORD = re.compile(r"[A-Za-z_]\w*")
 _PART = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
 _LABELLED = re.compile(r"\(\s*([A-Za-z_][\w.]*)\s+(\w+)\s*\)")
+_BOUNDING = re.compile(r"<=|>=|<|>")
+_SETTING = re.compile(r"\s*(?:\w+\.)?(\w+)\s*==")
+_TIMES = ("start", "end", "duration")
 _LEAST_STEM = 3  # letters
 _SUFFIX = 0.5  # share of the longer word that two words of one stem have in common
 _MANY = 3
@@ -42,6 +45,10 @@ class Affinity:
         for site in sites:
             for predicate, label in _LABELLED.findall(site.text):
                 self._tokens[site.file, site.scope, label] = predicate.rpartition(".")[2]
+        bounding = {site: _BOUNDING.search(site.text) is not None for site in sites}
+        uses = [(word, bounding[site]) for site in sites for word in WORD.findall(site.text) if word != site.named]
+        self._bounds = {word for word, is_bound in uses if word in named and is_bound}  # what some line compares with
+        self._bounds_only = self._bounds - {word for word, is_bound in uses if not is_bound}
         for site in sites:
             words = self._words(site)
             for name in set(WORD.findall(site.text)):
@@ -100,10 +107,20 @@ class Affinity:
         signs = []
         for found in WORD.finditer(site.text):
             parts = {part.lower() for part in _PART.findall(found.group())}
-            if found.group() in self._named and parts & (_MOST | _LEAST):
+            if found.group() in self._named and _is_limit(found.group()):
                 is_after = found.start() >= edit.end - site.begin
                 signs.append("<=" if bool(parts & _MOST) is is_after else ">=")
         return signs[0] if len(set(signs)) == 1 else ""
+
+    def drops_limit(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether an edit takes a limit such as `WAIT_MAX` out of what a line sets by `==`, if that is no time."""
+        left_out = (set(WORD.findall(edit.old)) - set(WORD.findall(edit.new))) & self._bounds
+        sets = _SETTING.match(site.text)
+        return sets is not None and sets.group(1) not in _TIMES and any(_is_limit(one) for one in left_out)
+
+    def is_limit(self, name: str) -> bool:
+        """Whether a constant is compared with, and nothing else comes of it."""
+        return name in self._bounds_only
 
     def _elsewhere(self, site: EditSite, text: str) -> int:
         return self._texts[text] - self._in_rule[site.file, site.scope, text]
@@ -113,6 +130,11 @@ class Affinity:
         words = set(WORD.findall(site.text)) - _COMMON
         tokens = {found for word in words if (found := self._tokens.get((site.file, site.scope, word)))}
         return {word for word in words if word not in self._named} | tokens
+
+
+def _is_limit(name: str) -> bool:
+    """Whether a name says that it is the most or the least of something."""
+    return bool({part.lower() for part in _PART.findall(name)} & (_MOST | _LEAST))
 
 
 def is_kin(one: str, other: str) -> bool:

@@ -54,7 +54,8 @@ class Candidate:
     """A site that is worth a trial: `far` from what ended the mission, by lines that hang together.
 
     It is so much nearer for trials as lines on the way only pass a value on. A line of the conflict is tried so much
-    sooner as it is `told` by it: a conflict of few lines tells more of each.
+    sooner as it is `told` by it: a conflict of few lines tells more of each. `is_proven`: a number did what it is
+    there for before the failure.
     """
 
     site: EditSite
@@ -62,6 +63,7 @@ class Candidate:
     source: Suspicion
     nearer: float = 0.0
     told: float = 0.0
+    is_proven: bool = False
 
 
 def candidates_of(
@@ -156,6 +158,7 @@ def candidates_of(
     if behind is not None:  # who ended may know only that another one took as long as it was asked to
         slices = [graph.behind(token, variable) for token, variable in _observed(behind.conflict)]
         told.append(_told(behind.conflict, graph, root) | {number for lines in slices for number, _ in lines})
+    proven = graph.proven(_over(outcome))
     found = []
     for number, site in enumerate(graph.sites):
         if number not in distances:
@@ -166,8 +169,18 @@ def candidates_of(
         added = _UNSEEN * is_unseen + _OUTSIDE * is_outside
         sooner = max((min(_TELLING / len(lines), _MOST_TOLD) for lines in told if number in lines), default=0.0)
         nearer = distances[number] - reached[number]
-        found.append(Candidate(site, distances[number] + added, source, nearer, sooner))
+        found.append(Candidate(site, distances[number] + added, source, nearer, sooner, number in proven))
     return sorted(found, key=lambda one: one.far)
+
+
+def _over(outcome: Outcome) -> set[str]:
+    """The predicates of which a token was over before the mission ended: another one began on its timeline."""
+    last: dict[str, str] = {}
+    found: set[str] = set()
+    for _, _, timeline, predicate in heads_of(outcome.events):
+        found |= {last[timeline]} if timeline in last else set()
+        last[timeline] = predicate
+    return found
 
 
 def _told(conflict: Conflict | None, graph: Dependence, root: Path) -> set[int]:

@@ -144,6 +144,22 @@ class Dependence:
                 waiting |= related[name]
         return {name.rpartition(".")[2] for name in found}
 
+    def proven(self, over: Container[str]) -> set[int]:
+        """The numbers that are read by rules of predicates alone whose tokens came to an `over`, whatever their branch.
+
+        What is read under a condition may have been read by none of these.
+        """
+        found = set()
+        for key, users in self._users.items():
+            readers = [one for one in users if not self.sites[one].is_number]
+            if key[0] == "global" and readers and all(self._has_held(one, over) for one in readers):
+                found |= users.difference(readers)
+        return found
+
+    def _has_held(self, site: int, over: Container[str]) -> bool:
+        is_guarded = any("guard" in key for key in self._keys[site])
+        return not is_guarded and self.sites[site].rule.rpartition(".")[2] in over
+
     def beside(self, site: EditSite) -> set[EditSite]:
         """The other lines that speak of a variable of a line, where few do.
 

@@ -1,7 +1,8 @@
 """A change that helped in, out: other changes of its line, smaller ones and those that change about as much."""
 
 from checker.counterfactual.numbers import is_apart, is_raised
-from checker.counterfactual.smallness import Usage, cost_of
+from checker.counterfactual.smallness import cost_of
+from checker.counterfactual.usage import Usage
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
 
 _MOST_FOLLOW_UPS = 3

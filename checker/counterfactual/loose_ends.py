@@ -13,8 +13,8 @@ from dataclasses import replace
 from checker.counterfactual.branches import uneven_branches
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.dependence import Dependence, LooseEnd
-from checker.counterfactual.smallness import Usage
 from checker.counterfactual.trials import Loose
+from checker.counterfactual.usage import Usage
 from checker.mutation.edits import EditSite
 
 _NOT_LOCAL = 2.0  # how much farther off a parameter counts than a local variable, and a time

@@ -17,8 +17,8 @@ from checker.counterfactual.loose_ends import loose_ends
 from checker.counterfactual.mission_lines import mission_lines
 from checker.counterfactual.moments import with_durations
 from checker.counterfactual.ranking import Causes, Claim, RankedLine, rank
-from checker.counterfactual.smallness import usage_of
 from checker.counterfactual.trials import Bounds, Missions, Trials, try_out
+from checker.counterfactual.usage import usage_of
 from checker.coverage import Universe
 from checker.losses import Limit
 from checker.mission import Mission

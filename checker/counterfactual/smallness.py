@@ -6,24 +6,17 @@ kind, the more usual what it writes is (in models, and in this one), and the les
 
 import math
 import re
-from collections import Counter
-from collections.abc import Container, Sequence
-from dataclasses import dataclass
 
-from checker.counterfactual.affinity import WORD, Affinity, is_kin
-from checker.counterfactual.bounds import Directions, is_result_moved, sets_value
-from checker.counterfactual.formulas import Formulas
-from checker.counterfactual.mentions import Mentions, is_doubled, leaves_one
-from checker.counterfactual.moments import TimeLimits, mixes_times, puts_times_right
+from checker.counterfactual.bounds import is_result_moved, sets_value
+from checker.counterfactual.mentions import leaves_one
+from checker.counterfactual.moments import mixes_times, puts_times_right
 from checker.counterfactual.numbers import NUMERIC, digits, is_farthest, is_raised, is_step, octaves
-from checker.counterfactual.orders import Orders
-from checker.counterfactual.siblings import Siblings
-from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, is_asked_for, sign_of, sort_of, sum_of
-from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit, inverse_of
+from checker.counterfactual.usage import Usage
+from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, is_asked_for, sign_of
+from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
 from checker.mutation.missing_lines import is_namesake, said_of
 
 _TWICE = re.compile(r"([A-Za-z_][\w.]*)\s*[+*]\s*\1")  # one name, added to itself or multiplied
-_LABEL = re.compile(r"\s+(\w+)\s*\)")
 _LOOSE = "any"  # the relation that demands nothing
 _TERM, _TERM_SOON = 3.0, 0.9  # of a sum or product without a part, and when that is tried
 _REPEATED, _REPEATED_SOON = 0.5, -0.2  # the same where both parts are one name
@@ -33,7 +26,6 @@ _HANDED_ON, _TOLD = 0.5, 2.5  # of one that hands on what has the same name, and
 _SIBLING = 3.0  # of a name with which a line says of one axis what another says of another
 _RECAST = 0.3  # how much later what no mutant makes is tried
 _UNEQUAL, _EQUAL = "!=", "=="
-_WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
 _FEW = 3  # numbers so small that one more is much
 _LATER = 0.7  # what is no number, where most missions pass
 _SIDE = 0.1  # when it is tried whether a resource is consumed or produced: there is no third
@@ -56,150 +48,22 @@ _SENSE = 2.0  # odds that a line is not meant as it stands, which holds what can
 _LIMITED = 1.0  # how much the odds count of a time that is held to a bare constant
 _NAMED = 2.0  # odds of the comparison that a constant's name asks for
 _MIXED, _UNMIXED = 3.0, 0.5  # of a line that holds a moment to a duration, and of one that does so no more
+_LIMIT = 0.3  # odds of a limit that mends alone: what is too slow by itself breaks other limits as well
+_ARGUMENT = 1.0  # odds that who writes the name of a constant means no variable
 _EDGE = 2.0  # odds that few missions fail for a number, not for what is wrong in all of them
 
-_MENTION, _ALIKE, _DOUBLED = 2.0, 1.5, 0.7  # odds that what lacks a mention is meant, or the same name on both sides
+_ALIKE, _DOUBLED = 1.5, 0.7  # odds of a part that leaves the same name on both sides, or one name once
 _WISHED = 5.5  # of another wish: it is the user's
-_KINDRED = 0.8  # of a name beside a constant that bears it: `bed * BED_SPACING`
-_CALLED = 2.0  # of a predicate whose name a token bears: `Wind.Calm calm`
-_PRESENT, _MOST_PRESENT = 0.2, 3  # for each line that speaks of a predicate, and how many count
 _QUOTIENT = 3.0  # of a quotient the other way round: its unit would be another
 _RESULT = 2.2  # of a result that changes places: other numbers by far come of it, and any limit is kept or none
 _PROMISED = 4.5  # of another property: what it promises less always keeps
 _AGREES = 1.5  # odds that both sides of `==` are of one type
 _VALUE = 1.7  # of another value: few lines have one, so their number says little
-_TURNED = 2.5  # odds of a relation of two named tokens that says the same with the tokens swapped
 _CASE = 1.0  # odds that no two conditions of a rule ask for the same value
 _LAST_CASE = 2.0  # odds that no value of an enumeration is for nothing, where all others have their use
-_UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
 _FREED = 2.0  # odds that a line which alone says what a variable is says it with `==`
 _FLOW = 2.0  # odds that a resource is both consumed and produced
 _NOTHING = 1.0  # odds that a number which has a name is not 0
-_SUM = 1.5  # how much the odds count of a sign that stands between the same words elsewhere
-_RARE = 0.3  # all other words
-_LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Usage:
-    """How often the lines of a model use each word; `named` are its global variables, `kinds` counts lines by edit.
-
-    `meant` counts relations, comparisons and signs by the sort of line that they stand in, `sums` signs by what they
-    stand between; `sampled` are the ranges of draws.
-    `passing` is the share of missions of these models that pass.
-    """
-
-    counts: Counter[str]
-    named: Container[str]
-    kinds: Counter[EditKind]
-    meant: Counter[tuple[object, str]]
-    sampled: Container[str]
-    affinity: Affinity
-    sums: Counter[tuple[str, str, str]]
-    mentions: Mentions
-    directions: Directions
-    formulas: Formulas
-    orders: Orders
-    siblings: Siblings
-    limits: TimeLimits
-    passing: float = 0.0
-
-    def is_swapped(self, edit: SmallEdit) -> bool:
-        """Whether a constant stands where another one is missed, or the range of a draw where a number is meant."""
-        return edit.new not in self.sampled and (self.is_idle(edit.new) or edit.old in self.sampled)
-
-    def is_idle(self, name: str) -> bool:
-        """Whether nothing uses a variable that somebody declared: another may have taken its place."""
-        return name in self.named and not self.counts[name]
-
-    def presence(self, edit: SmallEdit, site: EditSite) -> float:
-        """How much likelier a predicate is meant that other lines speak of, or that its token is called by."""
-        called = _LABEL.match(site.text, edit.end - site.begin)
-        label = called.group(1) if called is not None else ""
-        bears = is_kin(label, edit.new) - is_kin(label, edit.old)
-        return _PRESENT * min(self.counts[edit.new], _MOST_PRESENT) + _CALLED * bears
-
-    def is_wanted(self, edit: SmallEdit, site: EditSite) -> bool:
-        """Whether what an edit adds is a variable of the rule, or bears the name of what the line is about."""
-        name = WORD.findall(edit.new)[-1]
-        return name not in self.named or self.affinity.is_about(name, site)
-
-    def gain(self, edit: SmallEdit, site: EditSite) -> float:
-        """How much better the new constant of a line belongs there than the old one."""
-        return self.affinity.of(edit.new, site) - self.affinity.of(edit.old, site)
-
-    def strands(self, edit: SmallEdit) -> bool:
-        """Whether a change leaves a declared constant without any use."""
-        return edit.old in self.named and edit.old not in self.sampled and self.counts[edit.old] == 1
-
-    def strands_value(self, edit: SmallEdit, site: EditSite) -> bool:
-        """Whether a change leaves one value of an enumeration without a line, where lines speak of all others.
-
-        Of truth values nothing is known.
-        """
-        others = {one.new for one in site.rivals(edit, EditKind.VALUE)}
-        is_last = edit.new not in TRUTHS and self.counts[edit.old.rpartition(".")[2]] == 1
-        return is_last and all(self.counts[other] for other in others)
-
-    def twins(self, edit: SmallEdit, site: EditSite) -> int:
-        """1 for a change after which a line is written as one of another rule, less 1 for a line that is so already.
-
-        The other way round within a rule.
-        """
-        own = self.affinity.is_repeated(site) - self.affinity.repeats(edit, site)
-        return self.affinity.makes_twin(edit, site) - self.affinity.has_twin(site) + own
-
-    def fitness(self, edit: SmallEdit, site: EditSite) -> float:
-        """How much better a name fits into a line than the old one: by what lacks a mention, and by likeness."""
-        if edit.new in self.sampled or self.mentions.unsets(edit, site):
-            return _UNMEANT
-        weight = _MENTION if edit.kind is EditKind.NAME else 0.5 * _MENTION
-        gain = weight * self.mentions.gain(edit, site)
-        gain += _AGREES * ((edit.begin, edit.new) in site.agreeing)
-        gain += _KINDRED * self.affinity.kindred(edit, site)
-        return gain + _ALIKE * self.mentions.likeness(edit, site) + _DOUBLED * is_doubled(edit, site)
-
-    def is_fitting(self, edit: SmallEdit, site: EditSite) -> bool:
-        """Whether a line asks for a name: by a constant that bears it, the same on the other side, or a sibling."""
-        is_fit = self.affinity.kindred(edit, site) > 0 or self.mentions.likeness(edit, site) > 0.0
-        return is_fit or self.siblings.completes(edit, site)
-
-    def odds(self, edit: SmallEdit, site: EditSite) -> float:
-        """Logarithm of how much likelier the old word of a relation or comparison is meant than the new one."""
-        sort, prior = sort_of(edit, site)
-        old, new = sign_of(edit.old), sign_of(edit.new)
-        before = prior.get(old, _RARE) + self.meant[sort, old] - 1  # but for this very line
-        odds = math.log(before / (prior.get(new, _RARE) + self.meant[sort, new]))
-        wanted = self.affinity.sign_of(edit, site) if edit.kind is EditKind.COMPARISON else ""
-        if edit.kind is EditKind.SIGN:
-            odds += _SUM * math.log(
-                max(self.sums[sum_of(edit, site)], 1) / (1 + self.sums[sum_of(edit, site, edit.new)])
-            )
-        if sort == "between" and edit.new == inverse_of(edit.old):
-            odds -= _TURNED
-        odds += _NAMED * ((old[:1] == wanted[:1]) - (new[:1] == wanted[:1])) if wanted else 0.0
-        return max(odds, _LEAST_ODDS) if sort == "condition" else odds
-
-
-def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0, is_late: bool = True) -> Usage:
-    """The usage of words in all lines; a line that sets a variable does not use it."""
-    counts: Counter[str] = Counter()
-    kinds: Counter[EditKind] = Counter()
-    meant: Counter[tuple[object, str]] = Counter()
-    sums: Counter[tuple[str, str, str]] = Counter()
-    for site in sites:
-        counts.update(word for word in WORD.findall(site.text) if word != site.named)
-        kinds.update({edit.kind for edit in site.edits})
-        words = {edit.begin: edit for edit in site.edits if edit.kind in _WORDED}
-        meant.update((sort_of(edit, site)[0], sign_of(edit.old)) for edit in words.values())
-        sums.update(sum_of(edit, site) for edit in words.values() if edit.kind is EditKind.SIGN)
-    sampled = {name for site in sites for name in SAMPLED.findall(site.text)}
-    named = {site.named for site in sites if site.named}
-    mentions = Mentions(sites, named, counts)
-    directions = Directions(sites, named, is_late=is_late)
-    lines = (Formulas(sites, named), Orders(sites), Siblings(sites), TimeLimits(sites))
-    affinity = Affinity(sites, named)
-    return Usage(counts, named, kinds, meant, sampled, affinity, sums, mentions, directions, *lines, passing)
 
 
 def is_loosening(edit: SmallEdit, site: EditSite) -> bool:
@@ -244,6 +108,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
             far = 0.0 if site.named and float(edit.old) == 0.0 else octaves(edit)  # who names a number has one
             nothing = _NOTHING * (bool(site.named) and float(edit.old) == 0.0)
+            nothing += _LIMIT * (usage.affinity.is_limit(site.named) and usage.is_freed(edit, site))
             return 1.0 - nothing + _OCTAVE * far + _DIGIT * (digits(edit.new) - digits(edit.old))
         case EditKind.ARGUMENTS if usage.directions.is_put_in_order(edit, site) or usage.siblings.completes(edit, site):
             return 0.0
@@ -275,13 +140,15 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.TERM:
             if _TWICE.fullmatch(edit.old):
                 return _REPEATED
-            return _TERM - _ALIKE * usage.mentions.makes_alike(edit, site) - _DOUBLED * leaves_one(edit)
+            odd = _NAMED * usage.affinity.drops_limit(edit, site)
+            return _TERM - odd - _ALIKE * usage.mentions.makes_alike(edit, site) - _DOUBLED * leaves_one(edit)
         case EditKind.VALUE:
             is_case = edit.old not in TRUTHS and not site.text.endswith(";")
             cases = _CASE * usage.mentions.case_gain(edit, site) if is_case else 0.0
             return _VALUE + _LAST_CASE * usage.strands_value(edit, site) - cases
         case EditKind.NAME | EditKind.POINT | EditKind.TOKEN:
             usual = _LIMITED * usage.limits.odds(edit, site)
+            usual -= _ARGUMENT * usage.is_exchanged(edit, site)
             usual += _SENSE * (site.is_apart and (edit.begin, edit.new) in site.agreeing)
             return 2.0 - usage.fitness(edit, site) - _SIBLING * usage.siblings.completes(edit, site) - usual
         case _:
@@ -340,6 +207,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return _LINE_SOON + _UNUSUAL * alike + _LATER * usage.passing
         case EditKind.MISSING:
             return _ADDED_SOON if usage.is_wanted(edit, site) else _ADDED_LATER
+        case EditKind.TERM if usage.affinity.drops_limit(edit, site):
+            return -1.0  # seen without any flight
         case EditKind.TERM:
             is_alike = usage.mentions.makes_alike(edit, site) or _TWICE.fullmatch(edit.old)
             soon = _TERM_SOON - _DOUBLED * leaves_one(edit)

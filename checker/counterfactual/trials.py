@@ -18,14 +18,9 @@ from checker.counterfactual.damage import HEAVY, collapsed_of, course_of, damage
 from checker.counterfactual.follow_ups import alternatives, follow_ups
 from checker.counterfactual.numbers import between, is_doubling
 from checker.counterfactual.orders import is_order_turned
-from checker.counterfactual.smallness import (
-    Usage,
-    cost_of,
-    delay_of,
-    is_loosening,
-    is_probe,
-)
+from checker.counterfactual.smallness import cost_of, delay_of, is_loosening, is_probe
 from checker.counterfactual.turns import Turns
+from checker.counterfactual.usage import Usage
 from checker.mutation.edits import EditKind, EditSite, SmallEdit
 from checker.oracle import Verdict
 
@@ -40,6 +35,7 @@ _NAMESAKE = 0.2  # how much later a name is tried at each further line of a rule
 _CONFIRMED = 3  # causes that are tried on other missions too
 _KEPT = 0.3  # of the flights, at most, for that
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
+_PROVEN = 0.15  # odds of a number that did before the failure what it is there for
 _UNTRIED = 0.3  # odds that a change helps in other missions, once it was tried in some
 _NEAR, _SEARCHED = 0.25, 0.5  # distance of what a conflict speaks of, and of what ruled out a choice of a search
 _PROBE = -0.1  # when such a line is left out: where that helps, it is at fault or what it compares is
@@ -111,7 +107,7 @@ class LineTrial:
     @property
     def weight(self) -> tuple[float, float, float]:
         """What causes are ranked by: missions that fail with it; what is lost, how likely it is, and how far off."""
-        change = self.toll + _FAR * self.candidate.far + _UNTRIED * self.is_untried
+        change = self.toll + _FAR * self.candidate.far + _UNTRIED * self.is_untried + _PROVEN * self.candidate.is_proven
         return self.spoilt + 1.0 - self.helped / self.missions, change, self.cost
 
 

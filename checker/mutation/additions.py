@@ -15,7 +15,7 @@ _WORD = re.compile(r"[A-Za-z_]\w*")
 _NUMBER = re.compile(r"(int|float)\s+(\w+)\s*(?:=.*)?;", re.DOTALL)
 _SET = re.compile(r"\s*(\w+)\s*==")
 _COMPARED = re.compile(r"([^<>=!&|?]+?)(?:==|<=|>=|<|>)([^<>=!&|?]+);", re.DOTALL)
-_ROUNDED = re.compile(r"\b(?:ceil|floor|round)\s*\(([^()]*)\)")
+_ROUNDED = re.compile(r"\b(?:ceil|floor|round)\s*\(")
 _SAMPLING = "sampledParameter"
 _POINTS = ("start", "end")
 _MOST_IDLE = 4  # names that nothing reads: where there are more, that says little
@@ -63,7 +63,7 @@ def _grown(site: EditSite, name: str, is_real: bool, is_local: bool) -> Iterator
     is_time = compared.group(1).strip().rpartition(".")[2] in TOKEN_TIMES
     sums = [(whole, sign) for sign in "+-"] if not (is_real and is_time) else []
     terms = [one for one in _terms(site.text, *whole) if not set(_POINTS) & set(_WORD.findall(site.text[slice(*one)]))]
-    inner = [_stripped(site.text, *one.span(1)) for one in _ROUNDED.finditer(site.text, *whole)]
+    inner = [_within(site.text, one.end()) for one in _ROUNDED.finditer(site.text, *whole)]
     products = [(one, sign) for one in (*inner, *(() if is_real and is_time else terms)) for sign in "*/"]
     for (first, last), sign in (*products, *sums) if is_local else (*sums, *products):
         old = site.text[first:last]
@@ -82,6 +82,15 @@ def _terms(text: str, first: int, last: int) -> Iterator[tuple[int, int]]:
             yield _stripped(text, begun, at)
             begun = at + 1
     yield _stripped(text, begun, last)
+
+
+def _within(text: str, first: int) -> tuple[int, int]:
+    """What stands in parentheses that begin before `first`."""
+    depth, last = 1, first
+    while depth and last < len(text):
+        depth += (text[last] == "(") - (text[last] == ")")
+        last += 1
+    return _stripped(text, first, last - 1)
 
 
 def _stripped(text: str, first: int, last: int) -> tuple[int, int]:

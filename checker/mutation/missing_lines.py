@@ -6,6 +6,7 @@ own end may go on for ever.
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 from checker.mutation.scope import LineScope, Shape
@@ -14,6 +15,10 @@ from nddl_lang.text.source import Span
 
 _OWN_END = re.compile(r"(?<![\w.])(?:end|duration)\b")
 _ADDED = re.compile(r" \w+\.(\w+) == (?:\w+\.)*(\w+);")
+_ORDERED = re.compile(r"\b(\w+)\s+(?:before|after|meets|met_by)\s+(\w+)\s*;")
+_LATER = re.compile(r"\b(\w+)\s*\.\s*start\s*>=?\s*(\w+)\s*\.\s*end\b|\b(\w+)\s*\.\s*end\s*<=?\s*(\w+)\s*\.\s*start\b")
+_CHILD = re.compile(r"\bcontains\s*\(\s*[\w.]+\s+(\w+)\s*\)")
+_FEWEST = 3  # children that say how a rule orders them
 _TRUTHS = ("true", "false")
 # By these a rule looks at what is there already: that need not be told what it is.
 _AROUND = ("contained_by", "met_by", "after", "starts_during", "ends_during")
@@ -31,6 +36,19 @@ def missing_lines(statement: Any, rule: Span, names: LineScope, made: dict[str, 
                     yield behind, f" {label}.{parameter} == {value};"
         if not shape.is_event and not _OWN_END.search(rule.text):
             yield behind, f" {label}.end == end;"
+        yield from ((behind, f" {before} before {label};") for before, after in _gaps(rule.text) if after == label)
+
+
+def _gaps(rule: str) -> list[tuple[str, str]]:
+    """The children that follow each other in a rule and that no line orders, where all others are in one order."""
+    children = _CHILD.findall(rule)
+    pairs = [*_ORDERED.findall(rule), *(tuple(filter(None, one)) for one in _LATER.findall(rule))]
+    groups = {child: {child} for child in children}
+    for one, other in pairs:
+        joined = groups.get(one, set()) | groups.get(other, set())
+        groups |= dict.fromkeys(joined, joined)
+    gaps = [(one, other) for one, other in pairwise(children) if other not in groups[one]]
+    return gaps if len(children) >= _FEWEST and len(gaps) == 1 else []
 
 
 def is_namesake(added: str) -> bool:

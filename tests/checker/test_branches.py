@@ -5,7 +5,8 @@ from typing import Any
 
 import pytest
 
-from checker.counterfactual.smallness import cost_of, usage_of
+from checker.counterfactual.smallness import cost_of
+from checker.counterfactual.usage import usage_of
 from checker.mutation.edits import EditKind, sites_of
 from checker.mutation.variant import load_graph
 from tests.checker.checked import faults_of

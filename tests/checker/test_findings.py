@@ -79,6 +79,27 @@ def test_only_a_line_that_was_flown_makes_one_fault_of_two_groups() -> None:
     assert [one.parts for one, _ in faults_of(groups, results, Stub(loose))] == [(one,) for one in bucket.missions[:2]]
 
 
+class LateStub(Stub):
+    """A seeker that finds the line in the second of two groups alone; its change mends the first as well."""
+
+    def causes(self, missions: Missions) -> Causes:
+        self.asked = getattr(self, "asked", 0) + 1
+        return Causes((self.cause,)) if self.asked > 1 else Causes(flights=40)
+
+    def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
+        return cause == self.cause
+
+
+def test_what_a_later_cause_mends_is_one_fault_with_it_where_no_change_was_found_before() -> None:
+    results = fly(load_linked)
+    (bucket,) = group_failures(results)
+    groups = [replace(bucket, missions=(one,), parts=(one,)) for one in bucket.missions[:2]]
+    flown = RankedLine(LIMIT, "", Claim.MENDS, SmallEdit(EditKind.CONSTANT, "a.nddl", 0, 1, "1", "2", 1))
+    ((found, causes),) = faults_of(groups, results, LateStub(flown))
+    assert sorted(found.parts) == list(bucket.missions[:2])
+    assert causes.first == flown
+
+
 def reflying(load: Load) -> Refly:
     return lambda agent, number, seed: fly_one(load(agent), Task(number, seed))
 

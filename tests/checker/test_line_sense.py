@@ -7,8 +7,9 @@ import pytest
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.moments import with_durations
-from checker.counterfactual.smallness import Usage, cost_of, delay_of, usage_of
+from checker.counterfactual.smallness import cost_of, delay_of
 from checker.counterfactual.turns import Turns
+from checker.counterfactual.usage import Usage, usage_of
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
 from checker.mutation.variant import load_graph
 from compiler.lower import compile_model

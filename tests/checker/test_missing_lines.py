@@ -6,7 +6,8 @@ from typing import Any
 
 import pytest
 
-from checker.counterfactual.smallness import delay_of, usage_of
+from checker.counterfactual.smallness import delay_of
+from checker.counterfactual.usage import usage_of
 from checker.mutation.choice import mutants_of
 from checker.mutation.edits import EditKind, sites_of
 from checker.mutation.variant import load_graph

@@ -5,8 +5,9 @@ from pathlib import Path
 import pytest
 
 from checker.counterfactual.candidates import Candidate, Suspicion
-from checker.counterfactual.smallness import Usage, cost_of, delay_of, usage_of
+from checker.counterfactual.smallness import cost_of, delay_of
 from checker.counterfactual.turns import Turns
+from checker.counterfactual.usage import Usage, usage_of
 from checker.mutation.additions import with_additions
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
 from checker.mutation.variant import load_graph

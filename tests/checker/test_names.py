@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.counterfactual.smallness import cost_of, delay_of, usage_of
+from checker.counterfactual.smallness import cost_of, delay_of
+from checker.counterfactual.usage import usage_of
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
 from checker.mutation.variant import load_graph
 

@@ -7,8 +7,9 @@ import pytest
 from checker.counterfactual.bounds import Directions
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.numbers import between
-from checker.counterfactual.smallness import Usage, cost_of, delay_of, usage_of
+from checker.counterfactual.smallness import cost_of, delay_of
 from checker.counterfactual.turns import Turns
+from checker.counterfactual.usage import Usage, usage_of
 from checker.counterfactual.word_odds import compared
 from checker.mission import read_mission
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of

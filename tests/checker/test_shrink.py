@@ -81,6 +81,20 @@ def test_six_parameters_take_at_most_31_flights(size: int) -> None:
         assert found.is_smallest or size > 3
 
 
+def test_a_suspect_that_decides_alone_takes_two_flights() -> None:
+    needed = frozenset("C")
+    failed, passed = result(1, dict.fromkeys(NAMES, 0.9), needed), result(2, dict.fromkeys(NAMES, 0.1), needed)
+
+    def trace(agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
+        return result(number, {one.name: one.values[0] for one in agent.parameters}, needed)
+
+    found = find_contrast(failed, (failed, passed), six(), trace, suspects=("C",))
+    assert found is not None and found.flights == 2 and found.is_smallest
+    assert [one.parameter for one in found.decisive] == ["C"]
+    wrong = find_contrast(failed, (failed, passed), six(), trace, suspects=("A",))
+    assert wrong is not None and [one.parameter for one in wrong.decisive] == ["C"]
+
+
 def test_a_smaller_set_is_found_beside_one_of_which_nothing_can_be_left_out() -> None:
     def is_failing(values: dict[str, float]) -> bool:
         high = {name for name, value in values.items() if value > 0.5}
@@ -94,7 +108,7 @@ def test_a_smaller_set_is_found_beside_one_of_which_nothing_can_be_left_out() ->
         return result(number, dict.fromkeys(NAMES, 0.9 if is_failing(values) else 0.1), frozenset(NAMES))
 
     search = SubsetSearch(space, failed, (0.9,) * 6, (0.1,) * 6, trace)
-    assert search.smallest((0, 1, 2, 3, 4, 5)) == ((5,), True)
+    assert search.smallest((0, 1, 2, 3, 4, 5), (0, 1, 2, 3, 4, 5)) == ((5,), True)
 
 
 def test_a_mission_is_shrunk_to_what_matters(tmp_path: Path) -> None:

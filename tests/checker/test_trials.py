@@ -6,9 +6,10 @@ from pathlib import Path
 from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.damage import collapsed_of
-from checker.counterfactual.smallness import cost_of, delay_of, usage_of
+from checker.counterfactual.smallness import cost_of, delay_of
 from checker.counterfactual.trials import Bounds, Missions, Trials, Try, try_out
 from checker.counterfactual.turns import Turns
+from checker.counterfactual.usage import usage_of
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
 from checker.mutation.variant import load_graph
 from checker.oracle import Judgement, Verdict

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from checker.counterfactual.candidates import Candidate, Suspicion
-from checker.counterfactual.smallness import usage_of
 from checker.counterfactual.turns import Turns
+from checker.counterfactual.usage import usage_of
 from checker.mission import read_mission
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
 from checker.mutation.mission_edits import agent_with, mission_sites

@@ -7,7 +7,7 @@ import pytest
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.loose_ends import loose_ends
-from checker.counterfactual.smallness import usage_of
+from checker.counterfactual.usage import usage_of
 from checker.mutation.edits import sites_of
 from checker.mutation.variant import load_graph
 

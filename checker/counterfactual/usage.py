@@ -1,0 +1,163 @@
+"""The lines of a model in; out: how often they use each word, and so how well a word fits where another one stands."""
+
+import math
+import re
+from collections import Counter
+from collections.abc import Container, Sequence
+from dataclasses import dataclass
+
+from checker.counterfactual.affinity import WORD, Affinity, is_kin
+from checker.counterfactual.bounds import Directions
+from checker.counterfactual.formulas import Formulas
+from checker.counterfactual.mentions import Mentions, is_doubled
+from checker.counterfactual.moments import TimeLimits
+from checker.counterfactual.numbers import is_raised
+from checker.counterfactual.orders import Orders
+from checker.counterfactual.siblings import Siblings
+from checker.counterfactual.word_odds import SAMPLED, TRUTHS, sign_of, sort_of, sum_of
+from checker.mutation.edits import EditKind, EditSite, SmallEdit, inverse_of
+
+_LABEL = re.compile(r"\s+(\w+)\s*\)")
+_WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
+_NAMED = 2.0  # odds of the comparison that a constant's name asks for
+_MENTION, _ALIKE, _DOUBLED = 2.0, 1.5, 0.7  # odds that what lacks a mention is meant, or the same name on both sides
+_KINDRED = 0.8  # of a name beside a constant that bears it: `bed * BED_SPACING`
+_CALLED = 2.0  # of a predicate whose name a token bears: `Wind.Calm calm`
+_PRESENT, _MOST_PRESENT = 0.2, 3  # for each line that speaks of a predicate, and how many count
+_AGREES = 1.5  # odds that both sides of `==` are of one type
+_TURNED = 2.5  # odds of a relation of two named tokens that says the same with the tokens swapped
+_UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
+_SUM = 1.5  # how much the odds count of a sign that stands between the same words elsewhere
+_RARE = 0.3  # all other words
+_LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Usage:
+    """How often the lines of a model use each word; `named` are its global variables, `kinds` counts lines by edit.
+
+    `meant` counts relations, comparisons and signs by the sort of line that they stand in, `sums` signs by what they
+    stand between; `sampled` are the ranges of draws.
+    `passing` is the share of missions of these models that pass.
+    """
+
+    counts: Counter[str]
+    named: Container[str]
+    kinds: Counter[EditKind]
+    meant: Counter[tuple[object, str]]
+    sampled: Container[str]
+    affinity: Affinity
+    sums: Counter[tuple[str, str, str]]
+    mentions: Mentions
+    directions: Directions
+    formulas: Formulas
+    orders: Orders
+    siblings: Siblings
+    limits: TimeLimits
+    passing: float = 0.0
+
+    def is_swapped(self, edit: SmallEdit) -> bool:
+        """Whether a constant stands where another one is missed, or the range of a draw where a number is meant."""
+        return edit.new not in self.sampled and (self.is_idle(edit.new) or edit.old in self.sampled)
+
+    def is_exchanged(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether a variable takes the place of a constant that has a name, without a word for it in the line."""
+        is_asked = (edit.begin, edit.new) in site.agreeing or self.affinity.kindred(edit, site) > 0
+        return edit.old in self.named and edit.new not in self.named and not is_asked
+
+    def is_freed(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether another number demands less."""
+        return self.directions.of(edit, site) == (1 if is_raised(edit) else -1)
+
+    def is_idle(self, name: str) -> bool:
+        """Whether nothing uses a variable that somebody declared: another may have taken its place."""
+        return name in self.named and not self.counts[name]
+
+    def presence(self, edit: SmallEdit, site: EditSite) -> float:
+        """How much likelier a predicate is meant that other lines speak of, or that its token is called by."""
+        called = _LABEL.match(site.text, edit.end - site.begin)
+        label = called.group(1) if called is not None else ""
+        bears = is_kin(label, edit.new) - is_kin(label, edit.old)
+        return _PRESENT * min(self.counts[edit.new], _MOST_PRESENT) + _CALLED * bears
+
+    def is_wanted(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether what an edit adds is a variable of the rule, or bears the name of what the line is about."""
+        name = WORD.findall(edit.new)[-1]
+        return name not in self.named or self.affinity.is_about(name, site)
+
+    def gain(self, edit: SmallEdit, site: EditSite) -> float:
+        """How much better the new constant of a line belongs there than the old one."""
+        return self.affinity.of(edit.new, site) - self.affinity.of(edit.old, site)
+
+    def strands(self, edit: SmallEdit) -> bool:
+        """Whether a change leaves a declared constant without any use."""
+        return edit.old in self.named and edit.old not in self.sampled and self.counts[edit.old] == 1
+
+    def strands_value(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether a change leaves one value of an enumeration without a line, where lines speak of all others.
+
+        Of truth values nothing is known.
+        """
+        others = {one.new for one in site.rivals(edit, EditKind.VALUE)}
+        is_last = edit.new not in TRUTHS and self.counts[edit.old.rpartition(".")[2]] == 1
+        return is_last and all(self.counts[other] for other in others)
+
+    def twins(self, edit: SmallEdit, site: EditSite) -> int:
+        """1 for a change after which a line is written as one of another rule, less 1 for a line that is so already.
+
+        The other way round within a rule.
+        """
+        own = self.affinity.is_repeated(site) - self.affinity.repeats(edit, site)
+        return self.affinity.makes_twin(edit, site) - self.affinity.has_twin(site) + own
+
+    def fitness(self, edit: SmallEdit, site: EditSite) -> float:
+        """How much better a name fits into a line than the old one: by what lacks a mention, and by likeness."""
+        if edit.new in self.sampled or self.mentions.unsets(edit, site):
+            return _UNMEANT
+        weight = _MENTION if edit.kind is EditKind.NAME else 0.5 * _MENTION
+        gain = weight * self.mentions.gain(edit, site)
+        gain += _AGREES * ((edit.begin, edit.new) in site.agreeing)
+        gain += _KINDRED * self.affinity.kindred(edit, site)
+        return gain + _ALIKE * self.mentions.likeness(edit, site) + _DOUBLED * is_doubled(edit, site)
+
+    def is_fitting(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether a line asks for a name: by a constant that bears it, the same on the other side, or a sibling."""
+        is_fit = self.affinity.kindred(edit, site) > 0 or self.mentions.likeness(edit, site) > 0.0
+        return is_fit or self.siblings.completes(edit, site)
+
+    def odds(self, edit: SmallEdit, site: EditSite) -> float:
+        """Logarithm of how much likelier the old word of a relation or comparison is meant than the new one."""
+        sort, prior = sort_of(edit, site)
+        old, new = sign_of(edit.old), sign_of(edit.new)
+        before = prior.get(old, _RARE) + self.meant[sort, old] - 1  # but for this very line
+        odds = math.log(before / (prior.get(new, _RARE) + self.meant[sort, new]))
+        wanted = self.affinity.sign_of(edit, site) if edit.kind is EditKind.COMPARISON else ""
+        if edit.kind is EditKind.SIGN:
+            odds += _SUM * math.log(
+                max(self.sums[sum_of(edit, site)], 1) / (1 + self.sums[sum_of(edit, site, edit.new)])
+            )
+        if sort == "between" and edit.new == inverse_of(edit.old):
+            odds -= _TURNED
+        odds += _NAMED * ((old[:1] == wanted[:1]) - (new[:1] == wanted[:1])) if wanted else 0.0
+        return max(odds, _LEAST_ODDS) if sort == "condition" else odds
+
+
+def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0, is_late: bool = True) -> Usage:
+    """The usage of words in all lines; a line that sets a variable does not use it."""
+    counts: Counter[str] = Counter()
+    kinds: Counter[EditKind] = Counter()
+    meant: Counter[tuple[object, str]] = Counter()
+    sums: Counter[tuple[str, str, str]] = Counter()
+    for site in sites:
+        counts.update(word for word in WORD.findall(site.text) if word != site.named)
+        kinds.update({edit.kind for edit in site.edits})
+        words = {edit.begin: edit for edit in site.edits if edit.kind in _WORDED}
+        meant.update((sort_of(edit, site)[0], sign_of(edit.old)) for edit in words.values())
+        sums.update(sum_of(edit, site) for edit in words.values() if edit.kind is EditKind.SIGN)
+    sampled = {name for site in sites for name in SAMPLED.findall(site.text)}
+    named = {site.named for site in sites if site.named}
+    mentions = Mentions(sites, named, counts)
+    directions = Directions(sites, named, is_late=is_late)
+    lines = (Formulas(sites, named), Orders(sites), Siblings(sites), TimeLimits(sites))
+    affinity = Affinity(sites, named)
+    return Usage(counts, named, kinds, meant, sampled, affinity, sums, mentions, directions, *lines, passing)
