@@ -75,7 +75,12 @@ _STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 @click.option("--stop-when", metavar="RULE", help='End when the missions show or refute a rule such as "p<0.01@95%".')
 @click.option("--sampler", default="random", metavar="NAME", help="How missions are chosen (docs/mission.md).")
 @click.option("--coverage", is_flag=True, help="Tell which rules and branches no mission exercised.")
-@click.option("--flights", type=click.IntRange(0), default=MOST_FLIGHTS, help=f"Trials for causes ({MOST_FLIGHTS}).")
+@click.option(
+    "--flights",
+    type=click.IntRange(0),
+    default=MOST_FLIGHTS,
+    help=f"Trials for causes ({MOST_FLIGHTS}); 0: conditions, too, come of the missions alone.",
+)
 @click.option("--cluster", metavar="ADDRESS", help="Fly on a Dask cluster, such as tcp://127.0.0.1:8786.")
 @click.option("--dry-run", is_flag=True, help="Only look whether mission file and models are in order.")
 @trust_option
@@ -144,6 +149,7 @@ def command(
             findings = campaign.assess(
                 flown.results,
                 ending=flown.ending,
+                may_fly=flights > 0,
                 sampling=flown.sampling,
                 bounds=Bounds(flights, _SECONDS_A_FAULT) if flights else None,
                 seconds=_SECONDS,

@@ -115,7 +115,7 @@ def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_tr
     with SeekingDisplay() as seeking:
         findings = campaign.assess(
             results,
-            may_fly=is_same,
+            may_fly=is_same and bounds.flights > 0,
             focus=first,
             bounds=bounds if bounds.flights else None,
             conditions=conditions,
