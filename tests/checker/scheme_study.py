@@ -1,8 +1,8 @@
 """Measure explanations on faults drawn before any was flown: `python -m tests.checker.scheme_study ward lab`.
 
 Each model of `unseen` that has a `faults.toml` was written with its faults for this: nine were looked at while rules
-were made (ward, theatre, orchard; brewery, apron, lab; canal, bakery, icecore), three are only measured (laundry, quarry,
-tram).
+were made (ward, theatre, orchard; brewery, apron, lab; canal, bakery, icecore), three are only measured (laundry,
+quarry, tram).
 """
 
 import sys
