@@ -191,8 +191,11 @@ def _range(
             complaints.append(ILL_BATCH.at(node.span, reason="a `Fixed` one needs a `Value`"))
         return value, value, None
     if shape == "normal" and ("Mean" in given or "StdDev" in given):
-        if not {"Mean", "StdDev"} <= given.keys() or given["StdDev"] < 0.0:
-            complaints.append(ILL_BATCH.at(node.span, reason="a normal one needs `Mean` and a `StdDev` of at least 0"))
+        if not {"Mean", "StdDev"} <= given.keys() or given["StdDev"] <= 0.0:
+            place = next((child.span for child in node.children if child.tag == "StdDev"), node.span)
+            help_ = "one value in all draws is the component `Fixed`" if given.get("StdDev") == 0.0 else None
+            reason = "a normal one needs `Mean` and a `StdDev` above 0"
+            complaints.append(ILL_BATCH.at(place, reason=reason, help=help_))
             return 0.0, 0.0, None
         half = given["StdDev"] * math.sqrt(3.0)
         if "Min" in given or "Max" in given:

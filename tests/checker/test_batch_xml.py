@@ -87,6 +87,18 @@ def test_a_mistake_is_named_where_it_stands(old: str, new: str, line: int, reaso
     assert (complaints[0].span.line, complaints[0].message) == (line, f"this is no batch file: {reason}")
 
 
+@pytest.mark.parametrize(("value", "help_"), [("0", "one value in all draws is the component `Fixed`"), ("-1", None)])
+def test_a_normal_distribution_without_width_is_told(value: str, help_: str | None) -> None:
+    """In `sigma` of a mission file it is a mistake as well."""
+    text = OTHERS.replace('<StdDev value="1.5"/>', f'<StdDev value="{value}"/>')
+    batch, complaints = read_batch(Source("b.xml", text))
+    assert batch is None
+    (one,) = complaints
+    assert one.message.endswith("a normal one needs `Mean` and a `StdDev` above 0")
+    assert one.span.text.startswith("<StdDev")
+    assert one.help == help_
+
+
 def test_what_is_no_batch_file_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for text in ("", "<a/>", "no xml", '<?xml version="1.0"?><!DOCTYPE a [<!ENTITY b "c">]><a>&b;</a>'):
         assert read_batch(Source("b.xml", text))[0] is None
