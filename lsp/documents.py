@@ -258,7 +258,8 @@ class Documents:
     def _found_project(self, document: Document) -> None:
         """Give a text a model: the one that it is a part of on the disk, or one of its own."""
         root = root_of(document.path) if document.path is not None else None
-        if root is not None:
+        # A model that is open already does not hold the text as it stands: its include is being written.
+        if root is not None and key_of(root) not in self._projects:
             project = Project(key_of(root), self.settings)
             if self._analyse(project) and document.key in project.snapshot.parses:
                 self._projects[project.key] = project

@@ -58,6 +58,28 @@ class _Protocol(LanguageServerProtocol):
 
     greeting: Greeting | None = None  # a request that is answered already
 
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)
+        self._plain: dict[str, dict[int, tuple[types.Diagnostic, Any]]] = {}  # URI -> identity -> as it was sent
+
+    def _serialize_message(self, data: Any) -> dict[str, Any]:
+        """Write a message; complaints that were sent before are not converted again."""
+        if not isinstance(data, types.PublishDiagnosticsNotification):
+            return super()._serialize_message(data)
+        params = data.params
+        empty = types.PublishDiagnosticsParams(params.uri, (), params.version)
+        written = super()._serialize_message(types.PublishDiagnosticsNotification(empty))
+        if params.diagnostics:
+            # An error anywhere takes the findings back for a moment: what was sent is kept while nothing is wrong.
+            before = self._plain.get(params.uri, {})
+            now = {
+                id(each): before.get(id(each)) or (each, self._converter.unstructure(each))
+                for each in params.diagnostics
+            }
+            self._plain[params.uri] = now
+            written["params"]["diagnostics"] = [now[id(each)][1] for each in params.diagnostics]
+        return written
+
     def structure_message(self, data: dict[str, Any]) -> Any:
         """Understand a message; whoever asks what cannot be understood is told so."""
         try:

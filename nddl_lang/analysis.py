@@ -14,7 +14,7 @@ from nddl_lang.semantics.codes import UNKNOWN_CLASS, UNKNOWN_NAME, UNKNOWN_TYPE
 from nddl_lang.semantics.schema import Schema, SideTables
 from nddl_lang.semantics.scope import Context, Deferred, names_in
 from nddl_lang.semantics.statement import check_statement
-from nddl_lang.semantics.symbol_table import Entry, SymbolTable, told
+from nddl_lang.semantics.symbol_table import Entry, SymbolTable, declare_below, doubt, told
 from nddl_lang.syntax.codes import MISSING_FILE, TOO_DEEP, TOO_LARGE, UNCLOSED_COMMENT, UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import LoadedModules, load_module_graph
@@ -99,6 +99,7 @@ class Analyser:
     def __init__(self, callables: Callables = NATIVE_CALLABLES) -> None:
         self._callables = callables
         self._units: dict[Statement, _Unit] = {}
+        self._noted: dict[Statement, dict[Entry, object]] = {}
         self._supposed: dict[Entry, object] = {}
         self._dialect: Dialect | None = None
 
@@ -108,7 +109,7 @@ class Analyser:
             self._units, self._dialect = {}, loaded.dialect
         statements = loaded.module.statements
         symbols = SymbolTable()
-        _note_declarations(symbols, loaded)
+        self._note_declarations(symbols, loaded)
         supposed = symbols.entries()
         # Below statements that leave behind what those before them left, each look-up gets its old answer.
         before = list(self._units.values()) if supposed == self._supposed else []
@@ -126,18 +127,30 @@ class Analyser:
             units[statement] = unit
         self._units, self._supposed = units, supposed
         echoes = _Echoes(loaded)
-        complaints = [
-            (
-                statement,
-                tuple(echoes._without((*unit.complaints, *_deferred(symbols, unit, loaded, self._callables)))),
-            )
-            for statement, unit in units.items()
-        ]
+        complaints: list[tuple[Statement, tuple[Diagnostic, ...]]] = []
+        for statement, unit in units.items():
+            told_of: tuple[Diagnostic, ...] = ()
+            if unit.complaints or unit.deferred:
+                all_of = (*unit.complaints, *_deferred(symbols, unit, loaded, self._callables))
+                told_of = tuple(echoes._without(all_of))
+            complaints.append((statement, told_of))
         declared = (name for unit in units.values() for name in unit.tables.declared)
         found = name_misspelt_declaration(loaded.sources, tuple(_in_order(loaded, complaints)), declared)
         found = name_missing_include(loaded, found, _declared_names)
         by_statement = {statement: unit.tables for statement, unit in units.items()}
         return Analysis(loaded, statements, symbols.schema, by_statement, found, self._callables)
+
+    def _note_declarations(self, symbols: SymbolTable, loaded: LoadedModules) -> None:
+        """Note what is declared where, and which names are doubtful because text was not understood or is missing."""
+        noted: dict[Statement, dict[Entry, object]] = {}
+        for statement in loaded.module.statements:
+            entries = self._noted.get(statement)
+            noted[statement] = entries = _supposed_of(statement) if entries is None else entries
+            if entries:
+                symbols.suppose(entries)
+        self._noted = noted
+        if any(diagnostic.code in _TEXT_IS_MISSING for diagnostic in loaded.diagnostics):
+            symbols.suppose(doubt())
 
 
 def analyse(loaded: LoadedModules, callables: Callables = NATIVE_CALLABLES) -> Analysis:
@@ -189,19 +202,18 @@ def _deferred(symbols: SymbolTable, unit: _Unit, loaded: LoadedModules, callable
     return tuple(context.complaints)
 
 
-def _note_declarations(symbols: SymbolTable, loaded: LoadedModules) -> None:
-    """Note what is declared where, and which names are doubtful because text was not understood or is missing."""
-    for statement in loaded.module.statements:
-        for broken in _broken(statement):
-            words = names_in(broken.span.text)
-            for word in words:
-                symbols.doubt(word)
-            if not _INCLUDING.isdisjoint(words):
-                symbols.doubt()
-        for name in _declared_names(statement):
-            symbols.suppose("below", name.name, name.span)
-    if any(diagnostic.code in _TEXT_IS_MISSING for diagnostic in loaded.diagnostics):
-        symbols.doubt()
+def _supposed_of(statement: Statement) -> dict[Entry, object]:
+    """What a statement tells of the script as a whole: the names that it declares, or may declare."""
+    entries: dict[Entry, object] = {}
+    for broken in _broken(statement):
+        words = names_in(broken.span.text)
+        for word in words:
+            entries |= doubt(word)
+        if not _INCLUDING.isdisjoint(words):
+            entries |= doubt()
+    for name in _declared_names(statement):
+        entries |= declare_below(name.name, name.span)
+    return entries
 
 
 def _broken(statement: Statement) -> Iterator[BrokenStatement]:

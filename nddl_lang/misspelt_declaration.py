@@ -49,16 +49,25 @@ def name_misspelt_declaration(
             groups.setdefault((each.span.source, each.span.text, meant), []).append(each)
     if not groups:
         return tuple(found)
-    words = {source: _words(source) for source in sources}
+    texts = tuple(sources)
+    words: dict[Source, dict[str, int]] = {}
+
+    def count(source: Source, word: str) -> int:
+        if word not in source.text:
+            return 0
+        if source not in words:
+            words[source] = _words(source)
+        return words[source].get(word, 0)
+
     declarations = {each.name: each for each in declared}
     told: dict[Diagnostic, Diagnostic | None] = {}
     for (source, used, name), complaints in groups.items():
         declaration = declarations.get(name)
         if declaration is None or declaration.span.source is not source:
             continue
-        is_unused = sum(each.get(name, 0) for each in words.values()) == 1
+        is_unused = sum(count(each, name) for each in texts) == 1
         is_type = any(each.code in _TYPES for each in complaints)  # a variable may be called like the type meant
-        uses = len(complaints) if is_type or used in declarations else words[source].get(used, 0)
+        uses = len(complaints) if is_type or used in declarations else count(source, used)
         if is_unused and uses >= _FEWEST:
             told |= dict.fromkeys(complaints)
             told[complaints[0]] = _told_there(declaration, used, complaints)

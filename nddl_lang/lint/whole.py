@@ -208,7 +208,9 @@ def assemble(analysis: Analysis, parts: list[Part], gists: list[Gist], judged: f
     for each in gists:
         for new in each.objects:
             name = new.class_name.name
-            for owner in ancestry.setdefault(name, analysis.schema.ancestry(name)):
+            if name not in ancestry:
+                ancestry[name] = analysis.schema.ancestry(name)
+            for owner in ancestry[name]:
                 whole.objects.setdefault(owner, []).append(new)
         for key, domain, span in each.given:
             whole.given.setdefault(key, []).append((domain, span))

@@ -5,7 +5,7 @@ of them is an entry, looked up by table and name. What it looked up (with the an
 that the statement need not be analysed again while it would get the same answers.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import cast
 
 from nddl_lang.semantics.natives import NATIVE_CLASSES, NATIVE_ENUM, NATIVE_ENUM_VALUES
@@ -34,6 +34,16 @@ _EVERYTHING = "*"
 def told(writes: dict[Entry, object]) -> dict[Entry, object]:
     """What of these writes other statements can look up: nobody looks up a rule."""
     return {entry: value for entry, value in writes.items() if entry[0] != _RULE}
+
+
+def doubt(name: str = _EVERYTHING) -> dict[Entry, object]:
+    """The entry by which `name`, or every name, is one that text not understood may declare."""
+    return {("doubt", name): True}
+
+
+def declare_below(name: str, span: Span) -> dict[Entry, object]:
+    """The entry by which the script declares `name` somewhere."""
+    return {("below", name): span}
 
 
 class SymbolTable:
@@ -81,9 +91,9 @@ class SymbolTable:
         """All entries as they stand."""
         return dict(self._entries)
 
-    def suppose(self, table: str, name: str, value: object) -> None:
-        """State an entry about the script as a whole, which no statement puts."""
-        self._entries[table, name] = value
+    def suppose(self, entries: Mapping[Entry, object]) -> None:
+        """State entries about the script as a whole, which no statement puts."""
+        self._entries.update(entries)
 
     def look(self, table: str, name: str) -> object:
         """The value of an entry, None where nothing has put it."""
@@ -204,10 +214,6 @@ class SymbolTable:
             or self.look("doubt", _EVERYTHING) is not None
             or self.look("faulty", name) is not None
         )
-
-    def doubt(self, name: str = _EVERYTHING) -> None:
-        """Let `name`, or every name, be one that text not understood may declare."""
-        self.suppose("doubt", name, True)
 
     def put_faulty(self, name: str) -> None:
         """Note that the declaration of `name` was complained about."""

@@ -206,3 +206,40 @@ def test_a_misspelt_word_is_mended_from_its_complaint(client: Any, tmp_path: Pat
     told = client.change(uri, {"range": edit["range"], "text": edit["newText"]})
     assert [each["code"] for each in told["diagnostics"]] == ["NDDL502"]
     assert client.leave() == 0
+
+
+def test_findings_that_an_error_elsewhere_hid_come_back_as_they_were(wire: Any, tmp_path: Path) -> None:
+    (tmp_path / "part.nddl").write_text("int UNUSED = 5;\nint AGAIN = 6;\n")
+    root = tmp_path / "model.nddl"
+    text = '#include "part.nddl"\nclass C extends Timeline { predicate p { } }\nC c = new C();\nint x = 3;\n'
+    root.write_text(text)
+    part = (tmp_path / "part.nddl").as_uri()
+    wire.start()
+    wire.open(root.as_uri(), text)
+    own = wire.open(part, "int UNUSED = 5;\nint AGAIN = 6;\n")["diagnostics"]
+    assert [each["range"]["start"]["line"] for each in own] == [0, 1]
+    version = iter(range(2, 100))
+    for line in 1, 3:
+        begin, more = place(line, 0, 0), place(line, 0, 1)
+        wire.change(root.as_uri(), next(version), {"range": begin, "text": "?"})
+        assert wire.session.documents.complaints(part) == ()
+        document = {"uri": root.as_uri(), "version": next(version)}
+        said = wire.tell("textDocument/didChange", textDocument=document, contentChanges=[{"range": more, "text": ""}])
+        (told,) = [each["params"] for each in said if each["params"]["uri"] == part]
+        assert told["diagnostics"] == own
+    # Moved by an edit above them, they are told where they stand now.
+    moved = wire.change(part, 2, {"range": place(0, 0, 0), "text": "\n"})["diagnostics"]
+    assert [each["range"]["start"]["line"] for each in moved] == [1, 2]
+
+
+def test_an_include_that_is_being_written_in_an_open_model_silences_nothing(wire: Any, tmp_path: Path) -> None:
+    for name, text in ("part.nddl", "int UNUSED = 5;\n"), ("model.nddl", '#include "part.nddl"\nint x = y;\n'):
+        (tmp_path / name).write_text(text)
+    root, part = (tmp_path / "model.nddl").as_uri(), (tmp_path / "part.nddl").as_uri()
+    wire.start()
+    wire.open(root, '#include "part.nddl"\nint x = y;\n')
+    wire.open(part, "int UNUSED = 5;\n")
+    broken = wire.change(root, 2, {"range": place(0, 0, 0), "text": "?"})["diagnostics"]
+    assert broken[0]["range"]["start"]["line"] == 0
+    whole = wire.change(root, 3, {"range": place(0, 0, 1), "text": ""})["diagnostics"]
+    assert [each["code"] for each in whole] == ["NDDL201"]
