@@ -6,6 +6,7 @@ from contextlib import redirect_stdout
 
 import click
 
+from checker.mission_suffixes import MISSION_SUFFIXES
 from checker.models import ModelSet
 from checker.pinned import pinned
 from compiler.determined.codes import CHOICE_LEFT
@@ -46,11 +47,11 @@ def command(
 ) -> int:
     """Tell which reactors are determined: they fly as register code, without a plan database.
 
-    FILE is a model (.nddl), taken as a simulator that owns its internal timelines, or a mission file (.toml). Ends with
-    1 if a simulator leaves a choice.
+    FILE is a model (.nddl), taken as a simulator that owns its internal timelines, or a mission file (.toml, or
+    T-REX's .xml). Ends with 1 if a simulator leaves a choice.
     """
     (file,) = readable((path,), directories)
-    if file.suffix == ".toml":
+    if file.suffix in MISSION_SUFFIXES:
         _, _, models = prepare(path, is_trusted=is_trusted)
         found = list(_of_mission(models, reactor))
     elif reactor is not None:

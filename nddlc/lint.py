@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 
+from checker.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.lint.check import Checker
 from nddl_lang.lint.configuration import NAME, PROJECT, is_code, read_configuration
 from nddl_lang.lint.settings import Settings, at_least
@@ -30,7 +31,6 @@ from nddlc.watch import WatchedCommand
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
 _LEVELS = [severity.value for severity in Severity]
 _STYLES = ["text", "json", "sarif", "github", "junit"]
-_MISSIONS = (".toml", ".xml")
 
 
 @click.command(cls=WatchedCommand)
@@ -86,12 +86,12 @@ def command(
     mended = 0
     for path in paths:
         settings, gaps = _settings(path, codes, fail_on, is_trusted)
-        if (fix or unsafe_fixes or only_show) and path.suffix not in _MISSIONS:
+        if (fix or unsafe_fixes or only_show) and path.suffix not in MISSION_SUFFIXES:
             mended += _mend(checker, path, settings, only_show=only_show, unsafe=unsafe_fixes, is_text=style == "text")
             if only_show:
                 continue
         findings = _check(checker, path, settings)
-        if is_proved and path.suffix not in _MISSIONS:
+        if is_proved and path.suffix not in MISSION_SUFFIXES:
             directories_of = (*(Path(each) for each in directories), *settings.directories)
             findings += _proved(path, settings, directories_of, chosen_dialect(ctx, dialect), findings)
         checked.append((settings, (*settings.choose(gaps), *findings)))
@@ -111,7 +111,7 @@ def command(
 
 def _check(checker: Checker, path: Path, settings: Settings) -> tuple[Diagnostic, ...]:
     """All that is wrong with a model, a configuration, or a mission file and the models that it names."""
-    if path.suffix not in _MISSIONS:
+    if path.suffix not in MISSION_SUFFIXES:
         return checker.check(path, settings)
     if path.name in (NAME, PROJECT):
         return tuple(read_configuration(path)[1])

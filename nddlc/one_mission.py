@@ -5,6 +5,7 @@ from pathlib import Path
 import click
 
 from checker.mission import Mission, read_mission
+from checker.mission_suffixes import MISSION_SUFFIXES
 from checker.models import ModelSet
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.nearest import nearest
@@ -20,7 +21,7 @@ def prepare(path: str, *, is_trusted: bool, is_named: bool = True) -> tuple[Path
     `is_named`: the command line names the mission, not a file that the command line names.
     """
     (file,) = readable((path,), ())
-    if file.suffix not in (".toml", ".xml"):
+    if file.suffix not in MISSION_SUFFIXES:
         raise Unusable(f"`{path}` is no mission file (.toml, or T-REX's .xml)")
     mission, found = read_mission(file)
     if mission is None:

@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from checker.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
 from nddl_lang.text.values import json_text
@@ -98,16 +99,17 @@ def command(
 ) -> int:
     """Search a plan for a model and show it.
 
-    FILE is a model, or a mission file (.toml): then a plan for the goals of its planner is searched, up to its final
-    tick. Ends with 0 if there is a plan, with 1 if there is none, it was not found in time, or leaves goals out.
+    FILE is a model, or a mission file (.toml, or T-REX's .xml): then a plan for the goals of its planner is searched,
+    up to its final tick. Ends with 0 if there is a plan, with 1 if there is none, it was not found in time, or leaves
+    goals out.
     """
     (path,) = readable((file,), directories)
     text = None
-    if path.suffix == ".toml":
+    if path.suffix in MISSION_SUFFIXES:
         path, text, solver_file, last = goals_of(path, reactor)
         config, horizon = config or solver_file, horizon or (0, last)
     elif reactor is not None:
-        raise Unusable("--reactor names a reactor of a mission file (.toml)")
+        raise Unusable("--reactor names a reactor of a mission file (.toml, or T-REX's .xml)")
     configuration = _configuration(config)
     if horizon is not None and horizon[0] >= horizon[1]:
         raise Unusable(f"the horizon from {horizon[0]} to {horizon[1]} is empty")

@@ -15,6 +15,7 @@ from checker.judge.trace_reading import plan_of_trace
 from checker.judge.written_values import DocumentError
 from checker.logged import MissionLog, is_log, read_mission_log
 from checker.mission import read_mission
+from checker.mission_suffixes import MISSION_SUFFIXES
 from checker.one_flight import read_trace
 from checker.pinned import pinned
 from checker.proofs.judgement import ProvedJudgement, judgement_data, judgement_text, prove_record
@@ -67,10 +68,10 @@ def command(
 ) -> int:
     """Judge PLAN against its model, by code that shares nothing with the planner.
 
-    PLAN is a mission file (.toml), which is flown; a record or a plan (.json); a trace (.jsonl), which needs --mission
-    unless it names its own; or with --mission a log of T-REX (.tr.log), or the directory of a mission's logs.
-    docs/validate.md describes the documents. The exit code is 1 where something breaks the model. With --smt z3 judges
-    the same values, by what the text of the model demands.
+    PLAN is a mission file (.toml, or T-REX's .xml), which is flown; a record or a plan (.json); a trace (.jsonl), which
+    needs --mission unless it names its own; or with --mission a log of T-REX (.tr.log), or the directory of a mission's
+    logs. docs/validate.md describes the documents. The exit code is 1 where something breaks the model. With --smt z3
+    judges the same values, by what the text of the model demands.
     """
     present(plan)
     present(mission_path)
@@ -79,7 +80,7 @@ def command(
             judged = _logged(plan, mission_path, is_trusted)
         elif plan.is_dir():
             raise Unusable(f"there is no log of T-REX (*.tr.log) in `{plan}`")
-        elif plan.suffix == ".toml":
+        elif plan.suffix in MISSION_SUFFIXES:
             judged = _flown(plan, seed, target, is_trusted)
         elif plan.suffix == ".jsonl":
             judged = _traced(plan, mission_path, is_trusted)
@@ -94,7 +95,7 @@ def command(
         data = report_data(report) | ({} if proved is None else {"smt": judgement_data(proved)})
         click.echo(json_text(data))
     else:
-        click.echo(report_text(report, advises=plan.suffix != ".toml"))
+        click.echo(report_text(report, advises=plan.suffix not in MISSION_SUFFIXES))
         if proved is not None:
             click.echo(judgement_text(proved))
     return 0 if report.holds and (proved is None or not proved.broken) else 1

@@ -18,12 +18,12 @@ from checker.batch.lock import Locks
 from checker.batch.reading import readable_place
 from checker.batch.result import MissionResult, read_record, write_record
 from checker.batch.write_ahead_log import log_damage
+from checker.mission_suffixes import MISSION_SUFFIXES
 from checker.oracle import Verdict
 from checker.regression import RegressionCase
 from checker.sampling.sampler import SamplePoint
 
 LATEST = "latest"
-_MISSION = ".toml"
 _FOLDER = ".nddlc"
 _VERSION = 5  # of the schema and of `write_record`; other versions are not read
 _MARK = 0x4E44444C  # `NDDL`: the application id of SQLite's file format
@@ -161,7 +161,7 @@ class RunStore:
         chosen = "SELECT id, mission_file, seed, missions, sampler FROM runs "
         if name == LATEST:
             rows = self._rows(chosen + "ORDER BY turn DESC LIMIT 1")
-        elif name.endswith(_MISSION):
+        elif name.endswith(MISSION_SUFFIXES):
             rows = self._rows(chosen + "WHERE mission_file = ? ORDER BY turn DESC LIMIT 1", str(Path(name).resolve()))
         else:
             rows = self._rows(chosen + "WHERE substr(id, 1, ?) = ?", len(name), name)

@@ -70,13 +70,13 @@ def goal_text(goal: GoalTally, excerpts: Excerpts) -> str:
 def repair_text(repair: RepairTally, excerpts: Excerpts) -> str:
     """Repairs at a line of the model."""
     where = "" if repair.place is None else f" at {excerpts.path(repair.place)} `{excerpts.line(repair.place).strip()}`"
-    many = f"{repair.count} times in {missions(repair.missions)}"
+    many = f"{counted(repair.count, 'time')} in {missions(repair.missions)}"
     return f"{repair.reactor}{where}, {many}: {kind_text(repair.kind)}; first in {repair.example}"
 
 
 def unmet_text(one: UnmetTally) -> str:
     """Requests that were not met."""
-    many = f"{one.count} times in {missions(one.missions)}"
+    many = f"{counted(one.count, 'time')} in {missions(one.missions)}"
     what = f"{one.predicate} on `{one.timeline}`"
     return f"{one.sender} asked for {what}, {many}: {kind_text(one.kind)}; first in {one.example}"
 

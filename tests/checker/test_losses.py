@@ -7,6 +7,8 @@ import pytest
 
 from checker.batch.result import MissionResult
 from checker.losses import GoalFate, Limit, amount, losses_of
+from checker.report.losses import unmet_text
+from checker.tally import UnmetTally
 from nddlc.main import run
 from runtime.executive.outcome import Event, EventKind, Outcome, Phase, Reason, ReasonKind
 
@@ -148,3 +150,7 @@ def test_too_many_repairs_are_blamed_on_the_line_that_was_repaired(
     assert repaired
     assert all(one["verdict"] == "FAIL" for one in repaired)
     assert data["losses"]["by_repair"][0]["place"]["text"] == data["faults"][0]["place"]["text"]
+
+
+def test_what_happened_once_is_told_as_once() -> None:
+    assert ", 1 time in 1 mission: " in unmet_text(UnmetTally("pilot", "comms", "Report", None, 1, 1, 3))

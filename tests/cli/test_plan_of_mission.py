@@ -61,3 +61,26 @@ def test_a_goal_without_a_time_is_planned_within_the_mission(tmp_path: Path, cap
     said = capsys.readouterr().out
     assert "plan found" in said and "INACTIVE" not in said and "left out" not in said
     assert "Reservoir.produce" in said
+
+
+def test_an_agent_file_of_t_rex_is_a_mission_file(
+    tmp_path: Path, capsys: Captured, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert run(["new", str(tmp_path / "blank")]) == 0
+    monkeypatch.chdir(tmp_path / "blank")
+    Path("agent.xml").write_text(
+        '<Agent name="a" finalTick="200">\n'
+        '  <EuropaReactor name="planner" latency="1" lookahead="200" model="planner.nddl">\n'
+        '    <Internal name="task"/> <External name="device"/>\n  </EuropaReactor>\n'
+        '  <EuropaReactor name="simulator" latency="0" lookahead="1" model="simulator.nddl">\n'
+        '    <Internal name="device"/>\n  </EuropaReactor>\n'
+        '  <Goal on="task" pred="Do"> <Variable name="start"> <int min="5" max="60"/> </Variable> </Goal>\n</Agent>\n'
+    )
+    for command in (
+        ["plan", "agent.xml", "--reactor", "planner"],
+        ["compile", "agent.xml"],
+        ["validate", "agent.xml"],
+        ["check", "agent.xml", "--missions", "1"],
+        ["explain", "agent.xml#1", "--flights", "0"],
+    ):
+        assert run(command) == 0, (command, capsys.readouterr().err)
