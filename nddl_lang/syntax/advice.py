@@ -84,6 +84,8 @@ def _advise_after_name(kinds: list[str], texts: list[str], first: int, index: in
         return "a rule is written `Class::predicate { }`"
     if before == ["IDENT"] and kind == "{":
         return f"say what it is: `class {name} {{ }}`, `predicate {name} {{ }}`, or `Class::{name} {{ }}` for a rule"
+    if before == ["IDENT", ":"] and kind in ("IDENT", "RELATION", "GOAL", "if", "foreach") and kinds[index + 1] != "{":
+        return f"a statement has no label: leave out `{name}:`"
     if before in (["IDENT", ":"], ["IDENT", ".", "IDENT"]) and kind in ("IDENT", "{"):
         return "a rule is written `Class::predicate { }`"
     if before[1:2] == ["::"]:
