@@ -18,7 +18,7 @@ from nddl_lang.semantics.codes import (
 from nddl_lang.semantics.constraints import Origin
 from nddl_lang.semantics.functions import OTHER_FUNCTIONS, FunctionRow, ResultKind
 from nddl_lang.semantics.literals import number, number_meant
-from nddl_lang.semantics.names import find, resolve, resolve_value, suggest_name
+from nddl_lang.semantics.names import find, name_beside, resolve, resolve_value, suggest_name
 from nddl_lang.semantics.natives import TIME_NAMES
 from nddl_lang.semantics.schema import (
     ClassReference,
@@ -69,16 +69,18 @@ _EQUALITIES = frozenset({"==", "!="})
 _LOGIC = frozenset({"&&", "||"})
 
 
-def type_of(context: Context, scope: Scope, expression: Expr) -> Type | None:
+def type_of(context: Context, scope: Scope, expression: Expr, compared: str | None = None) -> Type | None:
     """The type of `expression`, noted in the tables with those of its parts; None where a complaint was made."""
     # Chains such as a + b + c lean to the left, however long; they are walked, not recursed into.
     chain: list[BinaryExpr] = []
     while isinstance(expression, BinaryExpr):
         chain.append(expression)
         expression = expression.left
-    type_ = _simple_type(context, scope, expression)
+    compared = name_beside(chain[-1], chain[-1].right) if chain else compared
+    type_ = _simple_type(context, scope, expression, compared)
     for binary in reversed(chain):
-        type_ = _binary_type(context, binary, type_, type_of(context, scope, binary.right))
+        right = type_of(context, scope, binary.right, name_beside(binary, binary.left))
+        type_ = _binary_type(context, binary, type_, right)
         if type_ is not None:
             context.tables.types[binary] = type_
     return type_
@@ -101,10 +103,10 @@ def check_guard(context: Context, scope: Scope, expression: Expr) -> None:
         context.complain(complaint)
 
 
-def _simple_type(context: Context, scope: Scope, expression: Expr) -> Type | None:
+def _simple_type(context: Context, scope: Scope, expression: Expr, compared: str | None) -> Type | None:
     type_: Type | None
     if isinstance(expression, PathExpr):
-        reference = resolve_value(context, scope, expression)
+        reference = resolve_value(context, scope, expression, compared)
         type_ = reference_type(reference, scope.own_class) if reference is not None else None
     elif isinstance(expression, IntLiteral):
         type_ = INT

@@ -33,7 +33,7 @@ from nddl_lang.semantics.schema import (
 )
 from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.types import reference_type
-from nddl_lang.syntax.nodes import Identifier, PathExpr
+from nddl_lang.syntax.nodes import BinaryExpr, Expr, Identifier, PathExpr
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 from nddl_lang.text.nearest import begun, nearest
 from nddl_lang.text.source import Span
@@ -41,19 +41,23 @@ from nddl_lang.text.source import Span
 TOKEN_OF_SCRIPT = "`{name}` is a token of the script; rules and predicates see only tokens of their own"
 
 _VALUE_TABLES = ("global", "goal", "value")
+_COMPARISONS = frozenset(("==", "!=", "<", "<=", ">", ">="))
 _LITERALS = ("true", "false", "inf", "inff")
 
 
-def resolve(context: Context, scope: Scope, path: PathExpr, *, type_name: str | None = None) -> Reference | None:
+def resolve(
+    context: Context, scope: Scope, path: PathExpr, *, type_name: str | None = None, compared: str | None = None
+) -> Reference | None:
     """What `path` names, noted in the tables; None, after a complaint, where it names nothing.
 
-    `type_name` is the type that a name would be declared with, where that is plain.
+    `type_name` is the type that a name would be declared with, where that is plain; `compared` is the name on the other
+    side of a comparison, which is never what was meant.
     """
     parts = path.parts
     if len(parts) == 1:
         reference = find(context, scope, parts[0].name)
         if reference is None:
-            complain_unknown(context, scope, parts[0], type_name=type_name)
+            complain_unknown(context, scope, parts[0], type_name=type_name, compared=compared)
     else:
         reference = resolve_dotted(context, scope, parts)
     if reference is not None:
@@ -62,13 +66,19 @@ def resolve(context: Context, scope: Scope, path: PathExpr, *, type_name: str | 
     return reference
 
 
-def resolve_value(context: Context, scope: Scope, path: PathExpr) -> Reference | None:
+def resolve_value(context: Context, scope: Scope, path: PathExpr, compared: str | None = None) -> Reference | None:
     """Like `resolve`, for a place where a class is no answer."""
-    reference = resolve(context, scope, path)
+    reference = resolve(context, scope, path, compared=compared)
     if isinstance(reference, ClassReference):
         context.complain(CLASS_AS_VALUE.at(path.span, name=reference.name))
         return None
     return reference
+
+
+def name_beside(binary: BinaryExpr, side: Expr) -> str | None:
+    """The name on one side of a comparison: nobody means to compare it with itself."""
+    is_name = isinstance(side, PathExpr) and len(side.parts) == 1
+    return side.span.text if binary.op in _COMPARISONS and is_name else None
 
 
 def find(context: Context, scope: Scope, name: str) -> Reference | None:
@@ -227,6 +237,7 @@ def complain_unknown(
     type_name: str | None = None,
     *,
     is_target: bool = False,
+    compared: str | None = None,
 ) -> None:
     """Say that nothing of that name is known, once per statement, unless an earlier mistake may be the reason.
 
@@ -275,7 +286,8 @@ def complain_unknown(
             meant = "this"
         complaint = UNKNOWN_NAME.at(name.span, name=word, help=help_)
         last = other_name(word, scope.own.predicate) if scope.own is not None else None
-        complaint = suggest_name(complaint, name, candidates, meant, last)
+        candidates = [each for each in candidates if each != compared]
+        complaint = suggest_name(complaint, name, candidates, meant, last if last != compared else None)
         if type_name is not None:
             before = Span(name.span.anchor, name.span.start, name.span.start)
             fix = Fix(f"declare `{type_name} {word}`", (Edit(before, f"{type_name} "),), safe=False)

@@ -132,3 +132,19 @@ def _last_use(word: str) -> int:
 
 def test_the_model_itself_is_in_order() -> None:
     assert analyse_text("typo.nddl", MODEL).diagnostics == ()
+
+
+@pytest.mark.parametrize(
+    ("compared", "help_"),
+    [
+        ("level == levl", None),
+        ("levl <= level", None),
+        ("level == levl + 1", "did you mean `level`?"),
+        ("power == levl", "did you mean `level`?"),
+    ],
+)
+def test_a_name_is_never_proposed_to_be_compared_with_itself(compared: str, help_: str | None) -> None:
+    model = MODEL.replace("leq(level, duration);", f"{compared};")
+    (complaint,) = analyse_text("typo.nddl", model).diagnostics
+    assert complaint.message == "nothing named `levl` is in scope here"
+    assert complaint.help == help_
