@@ -68,7 +68,7 @@ class Links:
 
         The last says whether it is a local variable.
         """
-        lines: dict[Key, set[int]] = defaultdict(set)
+        statements: dict[Key, set[int]] = defaultdict(set)
         declared: dict[Key, tuple[Span, str]] = {}
         steps = list(flat(rule.body))
         children = {0: rule.predicate} | {step.slot: step.predicate for step in steps if isinstance(step, Child)}
@@ -87,14 +87,14 @@ class Links:
                 is_event = any(("token", marked[one], TIMES) in self._keys(step, scope, marked) for one in events)
                 for key in self._keys(step, scope, marked):
                     if not (is_event and key == times):  # when an event comes leaves the end free
-                        lines[key].add(step.span.line)
+                        statements[key].add(_statement(step.span))
         for name in self._parameters[marked[0]]:
             declared["token", marked[0], name] = (rule.span, name)
         for key, (span, name) in declared.items():
             is_local = key[0] != "token"
-            if len(lines[key]) < (2 if is_local else 1):
+            if len(statements[key]) < (2 if is_local else 1):
                 yield span, name, () if is_local else ("token", str(key[1]).partition("#")[0], name), is_local
-        if not lines["token", marked[0], TIMES] and all(
+        if not statements["token", marked[0], TIMES] and all(
             step.relation in _FREE for step in steps if isinstance(step, Child) and step.origin == 0
         ):
             yield rule.span, DURATION_NAME, (), False
@@ -206,3 +206,8 @@ class Links:
                     yield from self._operand(one, scope, tokens)
             case _:
                 pass
+
+
+def _statement(span: Span) -> int:
+    """Which statement of its file a stretch of text is in: a line may have many, and one may take many lines."""
+    return span.source.text.count(";", 0, span.begin)
