@@ -6,11 +6,11 @@ from contextlib import redirect_stdout
 
 import click
 
-from checker.mission_suffixes import MISSION_SUFFIXES
 from checker.models import ModelSet
 from checker.pinned import pinned
 from compiler.determined.codes import CHOICE_LEFT
 from compiler.determined.reasons import ChoiceReason
+from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
 from nddlc.fitting import colours

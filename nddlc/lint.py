@@ -9,10 +9,10 @@ from pathlib import Path
 
 import click
 
-from checker.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.lint.check import Checker
 from nddl_lang.lint.configuration import NAME, PROJECT, is_code, read_configuration
 from nddl_lang.lint.settings import Settings, at_least
+from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line

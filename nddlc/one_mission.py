@@ -5,8 +5,8 @@ from pathlib import Path
 import click
 
 from checker.mission import Mission, read_mission
-from checker.mission_suffixes import MISSION_SUFFIXES
 from checker.models import ModelSet
+from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render

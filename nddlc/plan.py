@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from checker.mission_suffixes import MISSION_SUFFIXES
+from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
 from nddl_lang.text.values import json_text

@@ -15,7 +15,6 @@ from checker.judge.trace_reading import plan_of_trace
 from checker.judge.written_values import DocumentError
 from checker.logged import MissionLog, is_log, read_mission_log
 from checker.mission import read_mission
-from checker.mission_suffixes import MISSION_SUFFIXES
 from checker.one_flight import read_trace
 from checker.pinned import pinned
 from checker.proofs.judgement import ProvedJudgement, judgement_data, judgement_text, prove_record
@@ -23,6 +22,7 @@ from checker.proofs.operands import names_of
 from compiler.lower import compile_model
 from compiler.program import Program
 from nddl_lang.analysis import analyse_file
+from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import render
 from nddl_lang.text.values import json_text

@@ -18,10 +18,10 @@ from checker.batch.lock import Locks
 from checker.batch.reading import readable_place
 from checker.batch.result import MissionResult, read_record, write_record
 from checker.batch.write_ahead_log import log_damage
-from checker.mission_suffixes import MISSION_SUFFIXES
 from checker.oracle import Verdict
 from checker.regression import RegressionCase
 from checker.sampling.sampler import SamplePoint
+from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 
 LATEST = "latest"
 _FOLDER = ".nddlc"
