@@ -210,4 +210,4 @@ class Links:
 
 def _statement(span: Span) -> int:
     """Which statement of its file a stretch of text is in: a line may have many, and one may take many lines."""
-    return span.source.text.count(";", 0, span.begin)
+    return sum(span.source.text.count(end, 0, span.begin) for end in ";{}")

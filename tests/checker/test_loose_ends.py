@@ -13,6 +13,7 @@ class Modem extends AgentTimeline {
 }
 """
 WHOLE = "float r; r == sampledParameter(RATE); duration == ceil(size / r);"
+GUARDED = "float r; if (r > 1.0) { duration == ceil(size / r); }"
 LACKING = "float r; r == sampledParameter(RATE); duration == ceil(size);"
 
 
@@ -23,7 +24,7 @@ def loose(rule: str) -> list[str]:
 
 
 @pytest.mark.parametrize("end", [" ", "\n"])
-@pytest.mark.parametrize(("rule", "found"), [(WHOLE, []), (LACKING, ["r"])])
+@pytest.mark.parametrize(("rule", "found"), [(WHOLE, []), (GUARDED, []), (LACKING, ["r"])])
 def test_statements_count_not_lines(rule: str, found: list[str], end: str) -> None:
     assert loose(rule.replace("; ", f";{end}")) == found
     assert loose(rule.replace(" == ", f" =={end}")) == found
