@@ -31,6 +31,9 @@ cdef class Agent:
     @cython.locals(busy=list, reactor=TeleoReactor)
     cpdef object _deliberate(self)
 
+    @cython.locals(has_more=bint, made="long long")
+    cpdef bint _step(self, TeleoReactor reactor) except -1
+
     @cython.locals(first=TeleoReactor, most=double, reactor=TeleoReactor, urgency=double)
     cpdef TeleoReactor _most_urgent(self, list busy)
 

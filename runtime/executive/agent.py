@@ -172,14 +172,25 @@ class Agent:
                 continue
             reactor = self._most_urgent(busy)
             self.trace.phase = _DELIBERATE
-            if reactor.lookahead > 1 and not self.clock.grants_step():
-                reactor.halt()
-            if reactor.step(self.tick):
+            if self._step(reactor):
                 continue
             busy.remove(reactor)
             failure = reactor.failure()
             abort = self._give_up(reactor, failure) if failure is not None else self._dispatch(reactor, busy)
         return abort
+
+    def _step(self, reactor: TeleoReactor) -> bool:
+        """Let a reactor make a step, if the clock has one for who has something to decide; whether there is more."""
+        if reactor.lookahead <= 1:
+            return bool(reactor.step(self.tick))
+        if not self.clock.is_free() and reactor.has_work(self.tick):
+            self.clock.count(0)
+            reactor.halt()
+        made = reactor.decisions_made
+        has_more = bool(reactor.step(self.tick))
+        if reactor.decisions_made > made:
+            self.clock.count(reactor.decisions_made - made)
+        return has_more
 
     def _most_urgent(self, busy: list[TeleoReactor]) -> TeleoReactor:
         """Who comes next; of equal ones the first in the order of synchronising, whoever was woken first."""

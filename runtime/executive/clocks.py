@@ -12,7 +12,8 @@ from runtime.executive.configuration import ClockConfiguration
 class FastClock:
     """The fast clock: the next tick begins when nobody has work left.
 
-    `counts` has the steps made, by tick, for each tick in which somebody wanted to make one.
+    `counts` has the steps made, by tick, for each tick in which somebody wanted to make one. A step is a decision: who
+    has nothing to decide takes none.
     """
 
     def __init__(self) -> None:
@@ -23,13 +24,9 @@ class FastClock:
         """A tick begins; it may wait for that."""
         self.tick = tick
 
-    def grants_step(self) -> bool:
-        """Whether one more step may be made in this tick; it is counted."""
-        if not self.is_free():
-            self.counts.setdefault(self.tick, 0)
-            return False
-        self.counts[self.tick] = self.counts.get(self.tick, 0) + 1
-        return True
+    def count(self, steps: int) -> None:
+        """Count steps made in this tick; none where one was wanted and not granted."""
+        self.counts[self.tick] = self.counts.get(self.tick, 0) + steps
 
     def is_free(self) -> bool:
         """Whether there is time for a step."""

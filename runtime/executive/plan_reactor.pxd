@@ -18,7 +18,7 @@ cdef long long EPISODE_DONE, EPISODE_MOVED, EPISODE_TOO_DEEP, NOTHING
 
 cdef class PlanReactor(TeleoReactor):
     cdef public long long reach, final_tick, tick, relaxes, relaxed_at, steps_made
-    cdef public long long decisions_made, work_since
+    cdef public long long work_since
     cdef public Workbench bench
     cdef public Planner planner
     cdef public Dispatch dispatch
@@ -67,6 +67,8 @@ cdef class PlanReactor(TeleoReactor):
     cpdef object _rest(self, long long tick)
 
     cpdef bint is_out_of_steps(self) except -1
+
+    cpdef bint has_work(self, long long tick) except -1
 
     cpdef object halt(self)
 

@@ -58,12 +58,8 @@ class PlanReactor(TeleoReactor):
         self.goals = Goals(self.name, bench, self.timelines, trace)
         planner.missed = self.goals.missed
         self.goals.rejections = planner.rejections
-        self.tick = 0
-        self.relaxes = 0
+        self.tick = self.relaxes = self.steps_made = self.work_since = 0
         self.relaxed_at = NOTHING
-        self.steps_made = 0
-        self.decisions_made = 0
-        self.work_since = 0
         self.broken: Failure | None = None
         self.past = Past(bench)
         self.deferral = Deferral(bench, self.timelines, self.past)
@@ -279,6 +275,14 @@ class PlanReactor(TeleoReactor):
     def is_out_of_steps(self) -> bool:
         """Whether it has made as many decisions in this tick as it may, or as the clock lets it."""
         return self.is_halted or (self.max_steps is not None and self.decisions_made >= self.max_steps)
+
+    def has_work(self, tick: int) -> bool:
+        """Whether there is something to decide, once what was asked is taken in."""
+        if self.broken is not None or self.is_out_of_steps():
+            return False
+        if self.planner.is_fresh:
+            self.goals.take_in(tick, tick + self.reach)
+        return bool(self.planner.has_flaw(tick, min(tick + self.reach, self.final_tick)))
 
     def halt(self) -> None:
         """Leave what is undecided to the next tick."""

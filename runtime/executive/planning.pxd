@@ -49,6 +49,10 @@ cdef class Planner:
     @cython.locals(is_deep=bint, outcome="long long")
     cpdef long long deliberate(self, long long tick, long long end) except? -1
 
+    cpdef bint has_flaw(self, long long tick, long long end) except -1
+
+    cpdef object _begin(self, long long tick, long long end)
+
     cpdef int pause(self) except -1
 
     cpdef int keep(self) except -1

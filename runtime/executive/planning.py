@@ -135,15 +135,7 @@ class Planner:
 
     def deliberate(self, tick: int, end: int) -> int:
         """Make one decision inside [tick, end]; how the episode stands now."""
-        if self.is_fresh:
-            self.window.tick, self.window.end, self.window.is_present = tick, end, False
-            # If nothing was propagated since the present was found without flaws, it is the agenda that is wanted.
-            if self.resolved == self.bench.engine.epoch:
-                self.solver.resume()
-            else:
-                self.solver.refresh()
-            self.resolved = _NEVER
-            self.is_fresh = False
+        self._begin(tick, end)
         outcome = self.solver.step()
         if outcome == PLAN:
             self._explain_rejections()
@@ -159,6 +151,23 @@ class Planner:
         if self.max_depth is None and self.solver.depth > self.deepest:
             raise LimitError(f"more than {self.deepest} decisions are in force at once")
         return EPISODE_MOVED
+
+    def has_flaw(self, tick: int, end: int) -> bool:
+        """Whether there is something to decide inside [tick, end]."""
+        self._begin(tick, end)
+        return bool(self.solver.has_flaw())
+
+    def _begin(self, tick: int, end: int) -> None:
+        """Gather the flaws inside [tick, end], at the beginning of an episode."""
+        if self.is_fresh:
+            self.window.tick, self.window.end, self.window.is_present = tick, end, False
+            # If nothing was propagated since the present was found without flaws, it is the agenda that is wanted.
+            if self.resolved == self.bench.engine.epoch:
+                self.solver.resume()
+            else:
+                self.solver.refresh()
+            self.resolved = _NEVER
+            self.is_fresh = False
 
     def pause(self) -> None:
         """Make what has been decided final, in an episode that goes on when there are steps again."""

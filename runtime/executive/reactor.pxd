@@ -6,7 +6,7 @@ cdef long long _NEVER
 cdef class TeleoReactor:
     cdef public str name
     cdef public tuple internal, external
-    cdef public long long latency, lookahead, due, missed
+    cdef public long long latency, lookahead, due, missed, decisions_made
     cdef public bint runs_ahead
 
     cpdef long long untold(self) except? -1
@@ -26,6 +26,8 @@ cdef class TeleoReactor:
     cpdef double urgency(self, long long tick) except? -1.0
 
     cpdef bint step(self, long long tick) except -1
+
+    cpdef bint has_work(self, long long tick) except -1
 
     cpdef object halt(self)
 

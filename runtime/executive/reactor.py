@@ -72,6 +72,7 @@ class TeleoReactor:
         self.lookahead = lookahead
         self.due = 0  # the next tick at which it has something to do; earlier ones cost nothing
         self.missed = _NEVER  # the tick in which the mission ended before its turn came
+        self.decisions_made = 0  # in this tick
         self.runs_ahead = False  # whether it carries out ticks before the agent comes to them; then it is never asleep
 
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
@@ -108,6 +109,10 @@ class TeleoReactor:
 
     def step(self, tick: int) -> bool:
         """Take in what was asked, or make one planning decision; False if there is nothing left to do."""
+        return False
+
+    def has_work(self, tick: int) -> bool:
+        """Whether it has something to decide."""
         return False
 
     def halt(self) -> None:

@@ -46,6 +46,10 @@ cdef class Solver:
     @cython.locals(count="long long")
     cpdef long long solve(self, long long max_steps, long long max_depth, object is_late=*) except? -1
 
+    cpdef bint has_flaw(self) except -1
+
+    cpdef bint _selects(self, long long d) except -1
+
     cpdef long long _step(self) except? -1
 
     cpdef long long step(self) except? -1

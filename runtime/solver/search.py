@@ -157,6 +157,18 @@ class Solver:
                 return TIMEOUT
         return outcome
 
+    def has_flaw(self) -> bool:
+        """Whether there is something to decide, before anything is done about it."""
+        if not self.is_started:
+            self.refresh()
+        return bool(self.is_exhausted or self.has_active or self._selects(self.stack.depth))
+
+    def _selects(self, d: int) -> bool:
+        """Select the flaw for decision `d`; False: there is none."""
+        if self.relief is not None:
+            self.relief.waiting = self.agenda.waiting_guards[d]
+        return select(self.agenda)
+
     def step(self) -> int:
         """Make one decision, or try one resolver in vain."""
         if not self.is_started:
@@ -180,9 +192,7 @@ class Solver:
             if not self.has_active:
                 if d == 0:
                     agenda.dropped_count = 0  # nothing is undone behind the first decision
-                if self.relief is not None:
-                    self.relief.waiting = agenda.waiting_guards[d]
-                if not select(agenda):
+                if not self._selects(d):
                     if self._holds():
                         return PLAN
                     return FAILED if d > 0 else EXHAUSTED
