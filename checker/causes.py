@@ -56,7 +56,7 @@ def failed_by(outcome: Outcome | None) -> Failed:
         if end.conflict is not None or end.deadlock is not None:
             conflict = end.conflict
             if conflict is None and end.deadlock is not None:
-                conflict = _in_common(end.deadlock)
+                conflict = in_common(end.deadlock)
             return Failed(conflict, end.deadlock)
     return Failed()
 
@@ -136,7 +136,7 @@ def _predicates_in(event: Event) -> set[str]:
     return {token.predicate.rpartition(".")[2] for token in tokens if token is not None}
 
 
-def _in_common(deadlock: Deadlock) -> Conflict | None:
+def in_common(deadlock: Deadlock) -> Conflict | None:
     """The conflict that speaks for what was tried in vain: the one whose lines rule out the most, of equals the first.
 
     A line is the same for every token that it is posted for.

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
-from checker.causes import Failed, failed_by, refusals
+from checker.causes import Failed, failed_by, in_common, refusals
 from checker.counterfactual.deadlocks import lines_at_odds
 from checker.counterfactual.dependence import Dependence
 from checker.culprit import culprit_of
@@ -156,8 +156,9 @@ def candidates_of(
     )
     told = [_told(failed.conflict, graph, root)]
     if behind is not None:  # who ended may know only that another one took as long as it was asked to
-        slices = [graph.behind(token, variable) for token, variable in _observed(behind.conflict)]
-        told.append(_told(behind.conflict, graph, root) | {number for lines in slices for number, _ in lines})
+        conflict = behind.conflict if behind.deadlock is None else in_common(behind.deadlock)
+        slices = [graph.behind(token, variable) for token, variable in _observed(conflict)]
+        told.append(_told(conflict, graph, root) | {number for lines in slices for number, _ in lines})
     proven = graph.proven(_over(outcome))
     found = []
     for number, site in enumerate(graph.sites):

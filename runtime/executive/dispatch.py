@@ -222,8 +222,11 @@ class Dispatch:
         an owner gave up is asked for anew where the plan leaves it more room than it did.
         """
         bench = self.bench
-        if not (bench.is_alive(token, key) and bench.is_active(token)):
+        if not bench.is_alive(token, key):
             return True
+        if not bench.is_active(token):  # after a repair it may stand for what its owner had begun
+            has_met = bench.is_merged(token) and bench.is_fact(bench.stands_for(token))
+            return not (has_met and request.number in self.begun)
         if bench.is_started(token, tick):
             return False
         if request.number in self.begun:

@@ -24,10 +24,14 @@ def relax(
         forgotten = [token for token in over if token not in present]
         # What asked for these may have been archived.
         met = [line.current for line in timelines if not line.is_internal and line.current != NOTHING]
-        forgotten += [token for token in met if token not in seen.values() and bench.is_nobodys(token)]
+        met = [token for token in met if token not in seen.values()]
+        forgotten += [token for token in met if bench.is_nobodys(token)]
         for token in forgotten:
             bench.recorder.detach(token)
         bench.remove(forgotten)
+        for token in met:  # what runs and asked for these finds what was observed anew
+            if not bench.is_freed(token):
+                bench.cancel(token)
     for token in bench.all_tokens():
         if not bench.is_freed(token) and bench.is_waiting(token, tick):
             bench.cancel(token)
