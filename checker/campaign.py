@@ -8,20 +8,22 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from signal import Signals
 
-from checker.batch.identity import engine_digest, model_digest, run_id
+from checker.batch.connection import Run
+from checker.batch.engine import engine_digest
+from checker.batch.identity import model_digest, run_id
 from checker.batch.interruption import uninterrupted
 from checker.batch.pool import Batch, FlyBatch, fly_all, nothing_more
 from checker.batch.process import Flyer
 from checker.batch.progress import Progress
 from checker.batch.result import MissionResult
-from checker.batch.store import Run, RunStore
+from checker.batch.store import RunStore
 from checker.batch.worker import Load, Task, fly_one
 from checker.buckets import Key, bucket_key
 from checker.conditions.record import Conditions
-from checker.contrast import Contrast, find_contrast
+from checker.contrast import Contrast, Trace, find_contrast, nearest_passing
+from checker.counterfactual.effort import Bounds
 from checker.counterfactual.ranking import Causes
 from checker.counterfactual.search import CauseSearch, Suspended
-from checker.counterfactual.trials import Bounds
 from checker.drawn import Drawn, drawn_paths
 from checker.faults import Interruptible
 from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
@@ -196,11 +198,16 @@ class Campaign:
             return findings
 
     def contrast(
-        self, failed: MissionResult, results: tuple[MissionResult, ...], fault: Fault | None = None
+        self,
+        failed: MissionResult,
+        results: Sequence[MissionResult],
+        fault: Fault | None = None,
+        trace: Trace | None = None,
     ) -> Contrast | None:
-        """What sets a failed mission apart from the nearest one that passes; flown in this process."""
+        """What sets a failed mission apart from the nearest one that passes; flown in this process, or by `trace`."""
         wanted = suspects(failed.outcome, fault) if failed.outcome is not None else ()
-        return find_contrast(failed, results, with_point(self.models.agent, failed.point), self._traced, wanted)
+        agent = with_point(self.models.agent, failed.point)
+        return find_contrast(failed, results, agent, trace or self._traced, wanted)
 
     def shrink(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Shrunk | None:
         """The simplest mission that fails as `failed` does; flown in this process."""
@@ -229,7 +236,7 @@ class Campaign:
         with Flyer(self.load, self.models.agent, self.mission.check.time_limit) as flyer:
             for fault in findings.faults[:_MOST_PAIRS]:
                 example = by_number[fault.bucket.example]
-                near = _nearest_passing(example, findings)
+                near = nearest_passing(example, findings.results, findings.agent)
                 if near is None or example.outcome is None or not findings.is_whole:
                     found.append(None)
                     continue
@@ -268,23 +275,6 @@ def _worth_keeping(flown: Flown) -> list[MissionResult]:
             if found[key] <= _MOST_ALIKE:
                 chosen.append(result)
     return chosen
-
-
-def _nearest_passing(example: MissionResult, findings: Findings) -> MissionResult | None:
-    """The passing mission whose draws are nearest to those of a failing one, in units of the ranges."""
-    wide = {one.name: max(one.upper - one.lower, 1e-9) for one in findings.agent.parameters}
-
-    def values(result: MissionResult) -> dict[str, float]:
-        return {draw.parameter: draw.value for draw in (result.outcome.draws if result.outcome is not None else ())}
-
-    own = values(example)
-
-    def distance(result: MissionResult) -> float:
-        drawn = values(result)
-        return sum(((drawn[name] - own[name]) / wide.get(name, 1.0)) ** 2 for name in own.keys() & drawn.keys())
-
-    passing = [result for result in findings.results if result.verdict is Verdict.PASS]
-    return min(passing, key=distance, default=None)
 
 
 class _Watch:

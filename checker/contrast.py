@@ -98,6 +98,25 @@ def find_contrast(
     )
 
 
+def nearest_passing(
+    example: MissionResult, results: Sequence[MissionResult], agent: AgentConfiguration
+) -> MissionResult | None:
+    """The passing mission whose draws are nearest to those of a failing one, in units of the ranges."""
+    wide = {one.name: max(one.upper - one.lower, 1e-9) for one in agent.parameters}
+
+    def values(result: MissionResult) -> dict[str, float]:
+        return {draw.parameter: draw.value for draw in (result.outcome.draws if result.outcome is not None else ())}
+
+    own = values(example)
+
+    def distance(result: MissionResult) -> float:
+        drawn = values(result)
+        return sum(((drawn[name] - own[name]) / wide.get(name, 1.0)) ** 2 for name in own.keys() & drawn.keys())
+
+    passing = [result for result in results if result.verdict is Verdict.PASS]
+    return min(passing, key=distance, default=None)
+
+
 class SubsetSearch:
     """Flies the passing mission with some of the failing values."""
 

@@ -5,6 +5,8 @@ from typing import Any
 
 from checker.batch.result import MissionResult
 from checker.conditions.rendering import condition_data, condition_lines
+from checker.contrast import Contrast
+from checker.contrast_rendering import contrast_lines
 from checker.counterfactual.ranking import Causes
 from checker.counterfactual.rendering import causes_data, claim_text, effort_text
 from checker.excerpts import Excerpts
@@ -21,8 +23,21 @@ MOST_CAUSES = 3
 _ARROW = "     │\n     ▼"
 
 
-def story_text(story: Story, run_id: str, excerpts: Excerpts, most: int = MOST_CAUSES) -> str:
-    """The story as `nddlc explain` prints it, with so many causes."""
+def page_text(
+    story: Story,
+    contrast: Contrast | None,
+    run_id: str,
+    excerpts: Excerpts,
+    most: int = MOST_CAUSES,
+    drawn: str = "",
+) -> str:
+    """The page that `nddlc explain` prints: the story with so many causes, its graph, what sets the mission apart."""
+    apart = "\n".join(["", *contrast_lines(contrast)]) + "\n" if contrast is not None else ""
+    return _story_text(story, run_id, excerpts, most) + drawn + apart
+
+
+def _story_text(story: Story, run_id: str, excerpts: Excerpts, most: int) -> str:
+    """The story, with so many causes."""
     code = story.judgement.code
     lines = [
         f"{mission_name(story.number)} of run {run_id} failed at tick {story.last_tick} of {story.final_tick} "

@@ -21,3 +21,9 @@ def relative_name(name: str, root: Path) -> str:
 def mission_name(number: int) -> str:
     """A mission of a run as commands take it; `mission k3` is the third failure that the store has kept."""
     return f"mission k{-number}" if number < 0 else f"mission {number}"
+
+
+def as_named(file: str) -> Path:
+    """A file with an absolute path as the user would name it from where they stand."""
+    path = Path(file)
+    return path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path

@@ -14,9 +14,9 @@ from pathlib import Path
 from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.buckets import group_failures
+from checker.counterfactual.effort import Bounds
 from checker.counterfactual.ranking import NO_CAUSES, Causes, RankedLine
 from checker.counterfactual.search import CauseSearch, Suspended, sites_in
-from checker.counterfactual.trials import Bounds
 from checker.faults import faults_of
 from checker.mission import Mission
 from checker.models import ModelSet, load_models

@@ -2,21 +2,20 @@
 
 import os
 import sys
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 
 import click
 
+from checker.batch.connection import StoreError
 from checker.batch.interruption import Interruption
 from checker.batch.pool import FlyBatch
 from checker.batch.process import keeping_a_worker
-from checker.batch.result import write_record
-from checker.batch.store import StoreError, open_store
+from checker.batch.store import open_store
 from checker.campaign import Campaign, Enough
-from checker.conditions.record import write_condition
-from checker.counterfactual.trials import MOST_FLIGHTS, Bounds
+from checker.counterfactual.effort import MOST_FLIGHTS, Bounds
 from checker.coverage import coverage_of
 from checker.excerpts import Excerpts
 from checker.findings import Findings
@@ -33,6 +32,7 @@ from checker.report.markdown import markdown_report
 from checker.report.sarif import sarif_report
 from checker.report.text import text_report
 from checker.stopping import parse_rule
+from checker.story import Story
 from nddl_lang.analysis import analyse_file
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Severity
@@ -42,6 +42,7 @@ from nddl_lang.text.values import json_text
 from nddlc.batch_seed import BatchSeed
 from nddlc.fitting import colours, say
 from nddlc.inputs import STORE, Unusable, chosen_dialect, configured, mission_here, readable, write_text
+from nddlc.keeping import keep_findings, keep_pages
 from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.mission_trust import models_of
@@ -159,8 +160,12 @@ def command(
             )
         findings = replace(findings, is_stored=not no_store)
         if not no_store:
-            _keep(findings, store_path)
-        code = _report(campaign, findings, style, output, coverage=coverage)
+            keep_findings(findings, store_path)
+        stories = campaign.stories(findings)
+        code = _report(campaign, findings, stories, style, output, coverage=coverage)
+        if not no_store and flights:
+            sys.stdout.flush()  # what follows may take a while
+            keep_pages(campaign, flown, findings, stories, store_path, interruption)
     ended_by = flown.ended_by or interruption.first
     return code if ended_by is None else _SIGNALLED + ended_by
 
@@ -187,17 +192,6 @@ def _promoted(campaign: Campaign, file: Path) -> tuple[RegressionCase, ...]:
     except RegressionError as problem:
         raise Unusable(str(problem), f"mend `{place}`, or remove the case") from None
     return cases
-
-
-def _keep(findings: Findings, store_path: Path) -> None:
-    """Have the store remember conditions and causes, so that `explain` need not fly for them; it can if that fails."""
-    faults = [fault for fault in findings.faults if not fault.is_cut]
-    known = {fault.bucket.example: write_condition(fault.condition) for fault in faults}
-    known |= {part: write_condition(one.bucket.example) for one in faults for part in one.bucket.parts[1:]}
-    causes = {fault.bucket.example: write_record(fault.causes) for fault in faults if fault.causes.is_sought}
-    with suppress(StoreError), open_store(store_path) as store:
-        store.keep_conditions(findings.run_id, known)
-        store.keep_causes(findings.run_id, causes)
 
 
 def _prepare(
@@ -265,7 +259,15 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _report(campaign: Campaign, findings: Findings, style: str, output: Path, *, coverage: bool) -> int:
+def _report(
+    campaign: Campaign,
+    findings: Findings,
+    stories: list[Story | None],
+    style: str,
+    output: Path,
+    *,
+    coverage: bool,
+) -> int:
     """Write every form of the report, print the one that was asked for, and say how it ended."""
     excerpts = Excerpts(Path(campaign.models.agent.root))
     if style == "text":  # first of all: what follows may take a while
@@ -273,7 +275,7 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path, *,
         sys.stdout.flush()
     covered = coverage_of(campaign.models, findings.results) if coverage else None
     pairs = campaign.pairs(findings)
-    page = html_report(findings, excerpts, campaign.stories(findings), pairs, campaign.drawn(findings, pairs))
+    page = html_report(findings, excerpts, stories, pairs, campaign.drawn(findings, pairs))
     reports = {
         "json": ("report.json", json_report(findings, excerpts, covered)),
         "html": ("report.html", page),

@@ -5,8 +5,9 @@ from typing import Any
 
 import click
 
+from checker.batch.connection import StoreError
 from checker.batch.result import MissionResult, write_record
-from checker.batch.store import RunStore, StoreError, read_store
+from checker.batch.store import RunStore, read_store
 from checker.comparison import Comparison, Mission, Trialled, compare
 from checker.oracle import Verdict
 from checker.rendering import failure_text

@@ -1,40 +1,16 @@
 """`nddlc explain`: why one mission of a run failed, from the value that was drawn to the line that gave way."""
 
-from dataclasses import dataclass, replace
 from pathlib import Path
 
 import click
 
-from checker.batch.result import MissionResult, read_record
-from checker.batch.store import LATEST, Run, RunStore, StoreError, read_store
-from checker.batch.worker import fly_one
-from checker.campaign import Campaign
-from checker.conditions.record import read_condition
-from checker.contrast_rendering import contrast_data, contrast_lines
-from checker.counterfactual.ranking import Causes
-from checker.counterfactual.trials import MOST_FLIGHTS, MOST_SECONDS, Bounds
-from checker.excerpts import Excerpts
-from checker.explain import MOST_CAUSES, result_data, result_text, story_data, story_text
-from checker.findings import Fault
-from checker.graph import causal_graph, focused
-from checker.graph_rendering import graph_data, graph_dot, graph_svg, graph_text
-from checker.judge.written_values import DocumentError
-from checker.logged import Departure, MissionLog, ReactorLog, first_departure, read_mission_log, with_players
-from checker.mission import read_mission
-from checker.models import ModelSet, load_models
-from checker.names import mission_name
-from checker.oracle import Verdict
-from checker.pinned import pinned
-from nddl_lang.text.values import json_text
+from checker.batch.connection import LATEST, StoreError
+from checker.batch.explanations import kept_page
+from checker.counterfactual.effort import MOST_FLIGHTS, MOST_SECONDS, Bounds
 from nddlc.fitting import say
-from nddlc.inputs import STORE, Unusable, present, readable
-from nddlc.mission_trust import models_of
-from nddlc.samplers import SAMPLERS, find_sampler
-from nddlc.seeking import SeekingDisplay
+from nddlc.inputs import STORE, Unusable, present
+from nddlc.main import named
 from nddlc.trust import trust_option
-from runtime.executive.rendering import event_data, trace_line
-
-_DRAWN = {"dot": graph_dot, "svg": graph_svg}
 
 
 @click.command()
@@ -68,17 +44,28 @@ def command(
     as they are.
     """
     present(mission_path)
-    if mission_path is not None:
-        return _print(_replayed(Path(what), mission_path, Bounds(flights, seconds), is_trusted), style, events, verbose)
-    name, _, number = what.partition("#")
+    name, _, number = (what, "", "") if mission_path is not None else what.partition("#")
     if number and not number.removeprefix("k").isdigit():
         raise Unusable(f"`{number}` is no number of a mission", "write RUN#MISSION, such as latest#37")
+    mission = _number(number) if number else None
     try:
-        with read_store(store_path) as store:
-            found = _found(
-                store, name or LATEST, _number(number) if number else None, Bounds(flights, seconds), is_trusted
-            )
-            return _print(found, style, events, verbose)
+        if mission_path is None and style == "text" and not verbose and not events:
+            page = kept_page(store_path, name or LATEST, mission, flights)
+            if page is not None:
+                say(page)
+                return 0
+        explained: int = named("nddlc.explanation:explain")(  # only now: what flies missions is large
+            name or LATEST,
+            mission,
+            mission_path=mission_path,
+            style=style,
+            store_path=store_path,
+            verbose=verbose,
+            bounds=Bounds(flights, seconds),
+            events=events,
+            is_trusted=is_trusted,
+        )
+        return explained
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
 
@@ -86,171 +73,3 @@ def command(
 def _number(text: str) -> int:
     """`12` as it stands; `k3`, the third of the kept failures, as -3."""
     return -int(text[1:]) if text.startswith("k") else int(text)
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class _Found:
-    """A mission of a run and what is known of it; `is_same`: its models are still those that were flown."""
-
-    campaign: Campaign
-    run_id: str
-    result: MissionResult
-    fault: Fault | None
-    is_same: bool
-    results: tuple[MissionResult, ...]
-    of_log: tuple[str, ...] = ()
-
-
-def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_trusted: bool) -> _Found:
-    run = store.find(name)
-    if run is None:
-        known = ", ".join(store.run_ids()[:10])
-        raise Unusable(f"no single run is named `{name}`", f"runs in the store: {known or 'none'}")
-    campaign, is_same = campaign_of(run, is_trusted)
-    results = tuple(campaign.judged(one) for one in store.results(run.id))
-    first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
-    kept = {example: read_record(Causes, text) for example, text in store.causes(run.id).items()}
-    causes = {example: one for example, one in kept.items() if one.is_all_of(bounds.flights)}
-    conditions = {example: read_condition(text) for example, text in store.conditions(run.id).items()}
-    with SeekingDisplay() as seeking:
-        findings = campaign.assess(
-            results,
-            may_fly=is_same and bounds.flights > 0,
-            focus=first,
-            bounds=bounds if bounds.flights else None,
-            conditions=conditions,
-            causes=causes,
-            progress=seeking,
-        )
-    findings = replace(findings, run_id=run.id)
-    result = _result(run, first, campaign, results, is_same)
-    fault = next((one for one in findings.faults if result.number in one.bucket.missions), None)
-    return _Found(campaign, run.id, result, fault, is_same, results)
-
-
-def _replayed(path: Path, mission_path: Path, bounds: Bounds, is_trusted: bool) -> _Found:
-    """The mission of a log flown again, with players where the log tells what a reactor did that asks nobody."""
-    (file,) = readable((str(mission_path),), ())
-    try:
-        log = read_mission_log(path)
-    except (OSError, ValueError, DocumentError) as problem:
-        raise Unusable(f"`{path}` is no log of a mission: {problem}") from None
-    mission, _ = read_mission(file)
-    if mission is None or models_of(mission, is_trusted=is_trusted).has_errors:
-        raise Unusable(f"`{mission_path}` or its models are in error", f"nddlc check {mission_path}")
-    changed, others = with_players(mission, log)
-    players = [one.name for one in changed.agent.coded if one.class_name == "LogPlayer"]
-    if not players:
-        raise Unusable(
-            f"`{path}` has no log of a reactor of the mission that asks nobody", "these are what can be played again"
-        )
-    models = load_models(changed)
-    campaign = Campaign(changed, models, pinned(models))
-    result = campaign.judged(fly_one(campaign.load(campaign.models.agent), campaign.task(1), keep_trace=True))
-    findings = campaign.assess((result,), focus=1, bounds=bounds if bounds.flights else None)
-    fault = next(iter(findings.faults), None)
-    return _Found(campaign, path.name, result, fault, True, (result,), _told_of_log(log, players, others, result))
-
-
-def _told_of_log(
-    log: MissionLog, players: list[str], others: dict[str, ReactorLog], result: MissionResult
-) -> tuple[str, ...]:
-    """What the log says of the end of the mission, and where the flight is another."""
-    told = [f"played from the log: {', '.join(players)}"]
-    told += [f"`{name}` breaks off at tick {log.last_tick}" for name in log.cut_off]
-    told += [f"nothing is on record after tick {log.last_tick}: what held then goes on"] if log.ends is None else []
-    told += [f"T-REX ended `{one.reactor}` at tick {one.failed}" for one in log.reactors if one.failed is not None]
-    lines = [line for one in others.values() for line in one.provided]
-    events = result.outcome.events if result.outcome is not None else ()
-    departure: Departure | None = first_departure(log, lines, events)
-    if departure is not None:
-        told.append(
-            f"departs from the log at tick {departure.tick}: `{departure.timeline}` began to hold"
-            f" {departure.logged or 'nothing else'} there, and {departure.flown or 'nothing else'} now"
-        )
-    return tuple(told)
-
-
-def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
-    result, campaign = found.result, found.campaign
-    excerpts = Excerpts(Path(campaign.models.agent.root))
-    is_shown = style != "text" or verbose
-    graph = focused(causal_graph(result.outcome), verbose) if is_shown and result.outcome is not None else None
-    if style in _DRAWN:
-        if graph is None or not graph.ends:
-            raise Unusable(
-                f"{mission_name(result.number)} of run {found.run_id} has no causes to draw", "it did not fail"
-            )
-        click.echo(_DRAWN[style](graph), nl=False)
-        return 0
-    if found.of_log and style == "text":
-        say("\n".join([*found.of_log, "", ""]))
-    if not found.is_same and style == "text":
-        say("model, mission file or nddlc have changed since this run; the explanation is of what was flown\n\n")
-    if result.verdict is Verdict.FAIL:
-        story = campaign.story(result, found.fault)
-        most = len(found.fault.causes.ranked) if found.fault is not None and verbose else MOST_CAUSES
-        text, plain = story_text(story, found.run_id, excerpts, most), story_data(story, found.run_id, excerpts)
-        if graph is not None:
-            text += f"\nthe causal graph, each node with the numbers of its causes:\n{graph_text(graph)}"
-            plain["graph"] = graph_data(graph, excerpts)
-        if found.is_same:
-            contrast = campaign.contrast(result, found.results, found.fault)
-            text += "\n".join(["", *contrast_lines(contrast)]) + "\n" if contrast is not None else ""
-            plain["contrast"] = contrast_data(contrast)
-    else:
-        text, plain = result_text(result, found.run_id), result_data(result, found.run_id)
-    if events and result.outcome is not None:
-        lines = [trace_line(event) for event in result.outcome.events]
-        text += "\n" + "\n".join(lines) + "\n"
-        plain |= {"events": lines, "trace": [event_data(event) for event in result.outcome.events]}
-    plain |= {"log": list(found.of_log)} if found.of_log else {}
-    if style == "text":
-        say(text)
-    else:
-        click.echo(json_text(plain))
-    return 0
-
-
-def campaign_of(run: Run, is_trusted: bool) -> tuple[Campaign, bool]:
-    """The mission as its file is now, and whether that is still what was flown."""
-    path = Path(run.mission_file)
-    if path.is_relative_to(Path.cwd()):
-        path = path.relative_to(Path.cwd())
-    try:
-        mission, _ = read_mission(path)
-    except OSError as problem:
-        raise Unusable(f"cannot read `{path}`, the mission file of the run: {problem.strerror}") from None
-    if mission is None:
-        raise Unusable(f"`{path}`, the mission file of the run, is in error", f"nddlc check {path}")
-    mission = replace(mission, check=replace(mission.check, seed=run.seed, missions=run.missions))
-    models = models_of(mission, is_trusted=is_trusted, is_named=False)
-    campaign = Campaign(mission, models, pinned(models))
-    if models.has_errors:
-        nothing = ModelSet(mission.agent, {}, {}, {}, ())
-        return Campaign(mission, nothing, pinned(nothing)), False
-    if run.sampler in SAMPLERS:
-        name, make_sampler = find_sampler(run.sampler)
-        campaign = replace(campaign, sampler_name=name, make_sampler=make_sampler)
-    else:
-        campaign = replace(campaign, sampler_name=run.sampler)
-    return campaign, campaign.run.id == run.id
-
-
-def _result(
-    run: Run, number: int | None, campaign: Campaign, results: tuple[MissionResult, ...], is_same: bool
-) -> MissionResult:
-    """The mission asked for, flown again from its seed where its trace was not kept."""
-    if number is None:
-        raise Unusable(f"no mission of run {run.id} failed", f"{run.id}#N shows mission N all the same")
-    stored = next((result for result in results if result.number == number), None)
-    if stored is None and not 1 <= number <= run.missions:
-        raise Unusable(f"run {run.id} has missions 1 to {run.missions}, not {number}")
-    if stored is not None and (stored.has_trace or not is_same):
-        return stored
-    if not is_same:
-        raise Unusable(f"mission {number} of run {run.id} was not flown, and the model or nddlc has changed since")
-    if stored is None and run.sampler != "random":
-        raise Unusable(f"mission {number} of run {run.id} was not flown, and only the sampler knows where it is")
-    task = campaign.task(number, stored)
-    return campaign.judged(fly_one(campaign.load(task.agent or campaign.models.agent), task, keep_trace=True))

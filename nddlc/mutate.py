@@ -9,8 +9,8 @@ from typing import Any
 
 import click
 
+from checker.counterfactual.effort import MOST_FLIGHTS, MOST_SECONDS, Bounds
 from checker.counterfactual.rendering import cause_data
-from checker.counterfactual.trials import MOST_FLIGHTS, MOST_SECONDS, Bounds
 from checker.mission import LARGEST_SEED, Mission
 from checker.models import load_models
 from checker.names import relative_name

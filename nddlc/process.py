@@ -7,8 +7,9 @@ from pathlib import Path
 
 import click
 
+from checker.batch.connection import StoreError
 from checker.batch.identity import model_digest
-from checker.batch.store import StoreError, open_store
+from checker.batch.store import open_store
 from checker.campaign import Campaign
 from checker.gold import differences, gold_lines, gold_path, read_gold
 from checker.mission import Mission

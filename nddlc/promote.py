@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from checker.batch.store import LATEST
+from checker.batch.connection import LATEST
 from checker.regression import RegressionCase, RegressionError, cases_text, read_cases, regressions_path
 from nddlc.inputs import STORE, Unusable, write_text
 from nddlc.shrink import shrunk_lines, shrunk_mission

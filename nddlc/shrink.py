@@ -6,14 +6,15 @@ from typing import Any
 
 import click
 
-from checker.batch.store import LATEST, StoreError, read_store
+from checker.batch.connection import LATEST, StoreError
+from checker.batch.store import read_store
 from checker.buckets import group_failures
 from checker.oracle import Verdict
 from checker.rendering import failure_text
 from checker.sampling.rendering import number
 from checker.shrink import Shrunk
 from nddl_lang.text.values import json_text
-from nddlc.explain import campaign_of
+from nddlc.explanation import campaign_of
 from nddlc.inputs import STORE, Unusable
 from nddlc.trust import trust_option
 

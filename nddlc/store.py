@@ -5,8 +5,8 @@ from pathlib import Path
 
 import click
 
+from checker.batch.connection import StoreError
 from checker.batch.salvage import StoreDamage, examine, salvage
-from checker.batch.store import StoreError
 from nddl_lang.text.values import json_text
 from nddlc.inputs import STORE, Unusable
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import click
 
-from checker.batch.store import RunStore, StoreError, open_store
+from checker.batch.connection import StoreError
+from checker.batch.store import RunStore, open_store
 from checker.campaign import Campaign, Enough, Flown
 from checker.mission import read_mission
 from checker.pinned import pinned

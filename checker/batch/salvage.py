@@ -6,7 +6,8 @@ from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from checker.batch.store import Run, StoreError, check_version, open_store, place_to_read, result_of
+from checker.batch.connection import Run, StoreError, check_version, place_to_read
+from checker.batch.store import open_store, result_of
 from checker.batch.write_ahead_log import log_damage
 
 _MOST_MESSAGES = 20

@@ -13,11 +13,12 @@ from checker.causes import failed_by
 from checker.counterfactual.candidates import candidates_of
 from checker.counterfactual.damage import HEAVY, damage_of
 from checker.counterfactual.dependence import Dependence
+from checker.counterfactual.effort import Bounds
 from checker.counterfactual.loose_ends import loose_ends
 from checker.counterfactual.mission_lines import mission_lines
 from checker.counterfactual.moments import with_durations
 from checker.counterfactual.ranking import Causes, Claim, RankedLine, rank
-from checker.counterfactual.trials import Bounds, Missions, Trials, try_out
+from checker.counterfactual.trials import Missions, Trials, try_out
 from checker.counterfactual.usage import usage_of
 from checker.coverage import Universe
 from checker.losses import Limit

@@ -7,7 +7,7 @@ to the least likely and end after so many flights or seconds: what could not be 
 import time
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from checker.batch.interruption import InterruptedSearch
@@ -15,6 +15,7 @@ from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.damage import HEAVY, collapsed_of, course_of, damage_of, is_farther, strayed_of
+from checker.counterfactual.effort import Bounds
 from checker.counterfactual.follow_ups import alternatives, follow_ups
 from checker.counterfactual.numbers import between, is_doubling
 from checker.counterfactual.orders import is_order_turned
@@ -24,8 +25,6 @@ from checker.counterfactual.usage import Usage
 from checker.mutation.edits import EditKind, EditSite, SmallEdit
 from checker.oracle import Verdict
 
-MOST_FLIGHTS = 40
-MOST_SECONDS = 60.0
 _NEARNESS = 0.3  # of the distance, beside how late an edit is tried at its line
 _REACH = 0.4  # the same of a constant, of which there are many
 _TURN, _PLACE = 0.3, 0.1  # how much later each further edit of one line is tried, at one place and at another
@@ -60,15 +59,6 @@ class TrialsEnd(StrEnum):
     FLIGHTS = "flights"
     SECONDS = "seconds"
     CANCELLED = "cancelled"
-
-
-@dataclass(frozen=True, slots=True)
-class Bounds:
-    """How much may be tried; `is_cancelled` is asked before each flight."""
-
-    flights: int = MOST_FLIGHTS
-    seconds: float = MOST_SECONDS
-    is_cancelled: Callable[[], bool] = field(default=lambda: False)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -10,8 +10,8 @@ import tomllib
 from collections.abc import Collection
 from pathlib import Path
 
+from checker.counterfactual.effort import Bounds
 from checker.counterfactual.search import sites_in
-from checker.counterfactual.trials import Bounds
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.choice import Mutant

@@ -11,10 +11,11 @@ from pathlib import Path
 
 import pytest
 
+from checker.batch.connection import Run, StoreError
 from checker.batch.pool import Batch, fly_all
 from checker.batch.process import Flyer, WorkerError, keeping_a_worker
 from checker.batch.result import MissionResult, read_record, write_record
-from checker.batch.store import Run, StoreError, open_store
+from checker.batch.store import open_store
 from checker.batch.worker import Load, Task
 from checker.mission import read_mission
 from checker.models import load_models

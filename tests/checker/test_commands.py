@@ -29,7 +29,7 @@ def agent(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
 def plug(monkeypatch: pytest.MonkeyPatch, load: Load) -> None:
     monkeypatch.setattr("nddlc.check.pinned", lambda models: load)
-    monkeypatch.setattr("nddlc.explain.pinned", lambda models: load)
+    monkeypatch.setattr("nddlc.explanation.pinned", lambda models: load)
 
 
 def test_a_failing_model_ends_with_findings_and_a_reason(agent: None, capsys: pytest.CaptureFixture[str]) -> None:

@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from checker.batch.connection import Run, StoreError
 from checker.batch.salvage import examine, salvage
-from checker.batch.store import Run, StoreError, open_store
+from checker.batch.store import open_store
 from checker.regression import RegressionError, read_cases
 from nddlc.main import run
 from tests.checker.fake_agent import load_linked

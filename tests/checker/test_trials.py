@@ -6,8 +6,9 @@ from pathlib import Path
 from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.damage import collapsed_of
+from checker.counterfactual.effort import Bounds
 from checker.counterfactual.smallness import cost_of, delay_of
-from checker.counterfactual.trials import Bounds, Missions, Trials, Try, try_out
+from checker.counterfactual.trials import Missions, Trials, Try, try_out
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import usage_of
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of

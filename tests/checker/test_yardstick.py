@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.counterfactual.trials import Bounds
+from checker.counterfactual.effort import Bounds
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.yardstick import TOP, Fate, MutantReport, measure, open_flyer, prepare

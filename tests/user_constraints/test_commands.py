@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch import identity
-from checker.batch.identity import engine_digest, model_digest
+from checker.batch import engine
+from checker.batch.engine import engine_digest
+from checker.batch.identity import model_digest
 from checker.campaign import Campaign
 from checker.mission import read_mission
 from checker.models import load_models
@@ -144,9 +145,9 @@ def test_the_identity_of_a_run_depends_on_module_and_data(mission: Path) -> None
 
 def test_the_identity_of_a_run_depends_on_the_engine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     before = engine_digest()
-    for folder in identity.ENGINE:
-        shutil.copytree(identity.ROOT / folder, tmp_path / folder, ignore=shutil.ignore_patterns("*.so", "__pycache__"))
-    monkeypatch.setattr(identity, "ROOT", tmp_path)
+    for folder in engine.ENGINE:
+        shutil.copytree(engine.ROOT / folder, tmp_path / folder, ignore=shutil.ignore_patterns("*.so", "__pycache__"))
+    monkeypatch.setattr(engine, "ROOT", tmp_path)
     engine_digest.cache_clear()
     assert engine_digest() == before
     with (tmp_path / "runtime" / "solver" / "search.py").open("a", encoding="utf-8") as file:
