@@ -8,7 +8,8 @@ from checker.counterfactual.instructions import flat
 from compiler.program import Child, Guard, Instruction, RuleCode
 from nddl_lang.text.source import Span
 
-_SET = re.compile(r"\s*([A-Za-z_][\w.]*)\s*(?:[<>=!]=?|==)")
+_SAYS = re.compile(r"\s*([A-Za-z_][\w.]*)\s*([<>=!]=?)")
+_MOMENT = re.compile(r"(?:\w+\.)?(?:start|end)")
 _EMPTY_ELSE = re.compile(r"\}\s*else\s*\{\s*\}\s*$")
 
 
@@ -31,7 +32,8 @@ def _uneven(guard: Guard, rule: RuleCode, graph: Dependence) -> Iterator[str]:
     elsewhere = _names(_outside(rule, guard), graph)
     for one, other in (branches, branches[::-1]):
         own = {step.label for step in flat(one) if isinstance(step, Child)}
-        for name in _names([step.span for step in flat(one)], graph) - _names([s.span for s in flat(other)], graph):
+        spans = [step.span for step in flat(one)]
+        for name in _names(spans, graph, sets=True) - _names([step.span for step in flat(other)], graph):
             if name not in elsewhere and name.partition(".")[0] not in own:
                 yield name
 
@@ -41,7 +43,11 @@ def _outside(rule: RuleCode, guard: Guard) -> list[Span]:
     return [step.span for step in flat(rule.body) if step not in inside and not isinstance(step, Guard)]
 
 
-def _names(spans: list[Span], graph: Dependence) -> set[str]:
-    """What lines set or bound: the names that they begin with."""
+def _names(spans: list[Span], graph: Dependence, *, sets: bool = False) -> set[str]:
+    """What lines set or bound: the names that they begin with.
+
+    With `sets` without what is no more than a deadline, or a time to wait for: one branch alone may well have one.
+    """
     texts = {graph.sites[one].text for span in spans for one in graph.at_span(span)}
-    return {found.group(1) for text in texts if (found := _SET.match(text))}
+    said = [found.groups() for text in texts if (found := _SAYS.match(text))]
+    return {name for name, sign in said if not (sets and sign != "==" and _MOMENT.fullmatch(name))}

@@ -28,15 +28,20 @@ def claim_text(cause: RankedLine) -> str:
             less = "but it does less" if cause.missions == 1 else "but they do less"
             return f"{change}: {_passes(cause)}, {less}"
         case Claim.LOOSE_END:
-            return f"hardly a line of this rule speaks of `{cause.variable}`: one may be missing (no flight can tell)"
+            return _missing(f"hardly one of this rule speaks of `{cause.variable}`")
         case Claim.UNEVEN:
-            return f"one branch sets `{cause.variable}`, the other does not: a line may be missing (no flight can tell)"
+            return _missing(f"one branch sets `{cause.variable}`, the other does not")
         case Claim.UNREAD:
-            return f"nothing reads `{cause.variable}`: a line that does may be missing here (no flight can tell)"
+            return _missing(f"nothing reads `{cause.variable}`")
         case Claim.UNSET:
-            return f"nothing says what `{cause.variable}` is: a line that does may be missing (no flight can tell)"
+            return _missing(f"nothing says what `{cause.variable}` is")
         case _:
             assert_never(cause.claim)
+
+
+def _missing(sign: str) -> str:
+    """What was not flown is told as a guess from its first word on."""
+    return f"perhaps a line is missing: {sign} (no flight can tell)"
 
 
 def cause_text(causes: Causes) -> str:

@@ -5,10 +5,14 @@ from typing import Any
 
 import pytest
 
+from checker.counterfactual.branches import uneven_branches
+from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.smallness import cost_of
 from checker.counterfactual.usage import usage_of
 from checker.mutation.edits import EditKind, sites_of
 from checker.mutation.variant import load_graph
+from compiler.lower import compile_model
+from nddl_lang.analysis import analyse_file
 from tests.checker.checked import faults_of
 
 pytestmark = pytest.mark.once
@@ -101,6 +105,25 @@ def test_a_condition_without_else_is_not_uneven(tmp_path: Path, capsys: pytest.C
     found = causes(tmp_path, capsys, model)
     assert found
     assert all(one["claim"] != "uneven branches" for one in found)
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("end <= 150;", []),
+        ("lower.end >= HEAVY_TIME;", []),
+        ("150 > start;", []),
+        ("start == 150;", ["start"]),
+        ("duration <= 15;", ["duration"]),
+        ("lower.slack <= 2;", ["lower.slack"]),
+    ],
+)
+def test_a_deadline_on_one_branch_is_nothing_that_the_other_lacks(tmp_path: Path, line: str, told: list[str]) -> None:
+    rule = f"  if (load == Load.heavy) {{\n    {line}\n  }} else {{\n    object == object;\n  }}\n"
+    path = tmp_path / "crane.nddl"
+    path.write_text(MODEL.replace(MODEL[MODEL.index("  if (load") : MODEL.index("}\nCrane::Lower")], rule))
+    graph = Dependence([compile_model(analyse_file(path))], sites_of(load_graph(path, ())))
+    assert [one.variable for one in uneven_branches(graph) if one.variable != "object"] == told
 
 
 def test_a_sign_between_the_same_words_is_meant_as_elsewhere(tmp_path: Path) -> None:
