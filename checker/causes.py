@@ -5,7 +5,7 @@ at the conflict. "Future work" of the founding paper, section 6.
 """
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import networkx as nx
@@ -59,6 +59,16 @@ def failed_by(outcome: Outcome | None) -> Failed:
                 conflict = in_common(end.deadlock)
             return Failed(conflict, end.deadlock)
     return Failed()
+
+
+def dead_ends(deadlock: Deadlock | None) -> Iterator[tuple[Deadlock, ...]]:
+    """The ways to flaws against which there was nothing to choose, such as a resource that one token overloads."""
+    if deadlock is None:
+        return
+    if not deadlock.tried:
+        yield (deadlock,)
+    for one in deadlock.tried:
+        yield from ((deadlock, *way) for way in dead_ends(one.leads_to))
 
 
 def lines_that_rule_out(failed: Failed) -> list[ConflictElement]:

@@ -133,7 +133,7 @@ def step_text(step: Step, story: Story) -> str:
             return element_line(element)
         case Deadlock() as deadlock:
             tried = ", ".join(choice_text(one.choice) for one in deadlock.tried)
-            return f"{deadlock_text(deadlock)}; tried in vain: {tried}" if tried else deadlock_text(deadlock)
+            return f"{deadlock_text(deadlock)}; {f'tried in vain: {tried}' if tried else 'there is nothing to choose'}"
         case Abort() | None as abort:
             return _end_text(abort, story)
         case _:

@@ -6,6 +6,7 @@ from enum import StrEnum
 
 from checker.batch.result import MissionResult
 from checker.causes import (
+    dead_ends,
     decided_at,
     draws_behind,
     events_to_abort,
@@ -39,6 +40,7 @@ from runtime.executive.outcome import (
 )
 
 _MOST_LINES = 8  # that rule out what was tried
+_MOST_ENDS = 3  # flaws against which there was nothing to choose
 _MOST_LOST = 12  # events that are told of a mission that lost too much
 
 
@@ -288,7 +290,9 @@ def _tried(outcome: Outcome) -> list[Step]:
     limits = culprit_of(failed.conflict).limits
     lines = [one for one in lines_that_rule_out(failed) if one.place not in limits][:_MOST_LINES]
     steps = [Step(StepKind.CAUSE, None, element, element.place) for element in lines]
-    return [Step(StepKind.TRIED, None, failed.deadlock), *steps]
+    ends = dict.fromkeys(way[-1] for way in dead_ends(failed.deadlock) if len(way) > 1)
+    told = [Step(StepKind.TRIED, None, one) for one in (failed.deadlock, *list(ends)[:_MOST_ENDS])]
+    return [*told, *steps]
 
 
 def _without_repeats(steps: list[Step]) -> list[Step]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
-from checker.causes import Failed, failed_by, in_common, refusals
+from checker.causes import Failed, dead_ends, failed_by, in_common, refusals
 from checker.counterfactual.deadlocks import lines_at_odds
 from checker.counterfactual.dependence import Dependence
 from checker.culprit import culprit_of
@@ -24,6 +24,7 @@ from nddl_lang.text.source import Span
 from runtime.executive.configuration import PropertyConfiguration, PropertyKind, TokenPattern
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import Abort, Conflict, Deadlock, ElementKind, Event, EventKind, Outcome, SourcePlace
+from runtime.solver.tags import RESOURCE_THREAT
 
 _CULPRIT, _CONFLICT, _LOG, _OBSERVED, _COVERED, _EVENT, _AWAITED, _NAMED = 0.0, 0.25, 0.5, 0.5, 0.75, 1.0, 1.0, 1.5
 _UNSAID = 3.0  # of what bears on a token, where a property says what its arguments are
@@ -116,6 +117,14 @@ def candidates_of(
         for number in graph.asking(token, variable) if variable in _MOMENTS else ():
             if number not in roots or roots[number][0] > _OBSERVED + _STEP:
                 roots[number] = (_OBSERVED + _STEP, Suspicion.CONFLICT)
+    ways = [way for one in (failed, first) if one is not None for way in dead_ends(one.deadlock)]
+    for *before, last in ways:  # a resource that is used too much, whatever else is chosen
+        trying = {one.flaw.predicate for one in before if one.flaw is not None}
+        used = last.flaw.name if last.flaw is not None and last.flaw.kind == RESOURCE_THREAT else ""
+        for number in graph.of_level(used) if used else ():
+            far = _CONFLICT if graph.sites[number].rule in trying else _LEVEL
+            if number not in roots or roots[number][0] > far:
+                roots[number] = (far, Suspicion.CONFLICT)
     for predicate in sorted(_tokens_in(outcome, failed, first)):
         for number in graph.of_resource(predicate):
             if number not in roots or roots[number][0] > _LEVEL:

@@ -24,12 +24,18 @@ def damage_of(result: MissionResult) -> float:
 
 
 def is_farther(result: MissionResult, failed: MissionResult) -> bool:
-    """Whether a mission that fails as well does so later in another way, or achieves more."""
+    """Whether a mission that fails as well does so later in another way, or achieves more.
+
+    One that gives up more goals lasts longer as it does less.
+    """
     if result.outcome is None or failed.outcome is None:
         return False
     achieved, before = (one.losses.count(GoalFate.ACHIEVED) for one in (result, failed))
+    given_up, others = (
+        sum(one.losses.count(fate) for fate in (GoalFate.LATE, GoalFate.REJECTED)) for one in (result, failed)
+    )
     is_other = result.judgement.code != failed.judgement.code
-    is_later = result.outcome.last_tick > failed.outcome.last_tick
+    is_later = result.outcome.last_tick > failed.outcome.last_tick and given_up <= others
     return achieved > before or (achieved == before and is_other and is_later)
 
 

@@ -93,6 +93,14 @@ class Dependence:
             if key[:2] == ("token", predicate):
                 yield from self._users[key]
 
+    def of_level(self, resource: str) -> Iterator[int]:
+        """The sites that make a resource, or bear on what changes its level."""
+        for number, site in enumerate(self.sites):
+            if site.named == resource.rpartition(".")[2]:
+                yield number
+                for key in sorted((one for one in self._keys[number] if one[0] == "token"), key=str):
+                    yield from self._users[key]
+
     def setting(self, predicate: str, variable: str) -> Iterator[int]:
         """The sites in the rule of a predicate that bear on a parameter of its token, or on how long that lasts."""
         key = ("token", predicate, TIMES if variable in (DURATION_NAME, "end") else variable)

@@ -1,0 +1,115 @@
+"""A token that alone overloads a resource: the lines that say so are candidates, and the story tells it."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from checker.batch.result import MissionResult
+from checker.batch.worker import Task, fly_one
+from checker.causes import failed_by
+from checker.counterfactual.candidates import candidates_of
+from checker.counterfactual.damage import is_farther
+from checker.counterfactual.dependence import Dependence
+from checker.counterfactual.search import sites_in
+from checker.losses import GoalEnd, GoalFate, Losses
+from checker.mission import read_mission
+from checker.models import ModelSet, load_models
+from checker.pinned import pinned
+from checker.proofs.places import text_of
+from checker.rendering import step_text
+from checker.story import tell
+
+pytestmark = pytest.mark.once
+
+MODEL = """#include "TREX.nddl"
+class Oven extends AgentTimeline {
+  predicate Empty { }
+  predicate Bake { }
+  predicate Clean { }
+  Oven(Mode m) { super(m, "Empty"); }
+}
+Reusable bus = new Reusable(100.0, 0.0);
+Reservoir tank = new Reservoir(50.0, 0.0, 60.0);
+Oven::Bake {
+  duration == 20;
+  any(Reusable.uses power);
+  power.start == start;
+  power.end == end;
+  power.quantity == 140.0;
+}
+Oven::Clean {
+  duration == 5;
+  any(Reservoir.consume water);
+  water.time == end;
+  water.quantity == 10.0;
+}
+Oven oven = new Oven(Internal);
+close();
+"""
+MISSION = """[mission]
+name = "oven"
+final_tick = 100
+[[reactor]]
+name = "cook"
+model = "oven.nddl"
+solver = "cook.toml"
+latency = 1
+lookahead = 100
+internal = ["oven"]
+[[goal]]
+timeline = "oven"
+predicate = "Bake"
+mandatory = true
+"""
+
+MANAGERS = ("ResourceThreatManager", "ThreatManager", "OpenConditionManager", "UnboundVariableManager")
+
+
+@pytest.fixture(scope="module")
+def flown(tmp_path_factory: pytest.TempPathFactory) -> tuple[ModelSet, MissionResult]:
+    folder = tmp_path_factory.mktemp("oven")
+    (folder / "oven.nddl").write_text(MODEL, encoding="utf-8")
+    managers = "".join(f'[[manager]]\ncomponent = "{name}"\n' for name in MANAGERS)
+    (folder / "cook.toml").write_text(managers, encoding="utf-8")
+    (folder / "mission.toml").write_text(MISSION, encoding="utf-8")
+    mission, _ = read_mission(folder / "mission.toml")
+    assert mission is not None
+    models = load_models(mission)
+    return models, fly_one(pinned(models)(models.agent), Task(1, 1), keep_trace=True)
+
+
+def test_lines_that_overload_a_resource_alone_are_candidates(flown: tuple[ModelSet, MissionResult]) -> None:
+    models, result = flown
+    assert result.outcome is not None
+    assert failed_by(result.outcome).conflict is None  # nothing was tried against it, so no conflict names a line
+    sites = sites_in(models.agent)
+    graph = Dependence([models.programs[each.model] for each in models.agent.reactors], sites)
+    found = candidates_of(result.outcome, graph, Path(models.agent.root))
+    near = [one.site.text for one in found if one.far <= 0.5]
+    assert near[:1] == ["any(Reusable.uses power);"]
+    assert {"power.quantity == 140.0;", "Reusable bus = new Reusable(100.0, 0.0);"} <= set(near)
+    assert "water.quantity == 10.0;" not in near
+
+
+def test_the_story_tells_which_resource_leaves_no_choice(flown: tuple[ModelSet, MissionResult]) -> None:
+    models, result = flown
+    story = tell(result, models.agent, models.influence, None, text_of(models.agent, models.programs))
+    told = [step_text(step, story) for step in story.steps]
+    assert any(one.startswith("`bus` might be used too much at ") for one in told)
+
+
+def test_a_mission_that_gives_a_goal_up_has_come_no_farther(flown: tuple[ModelSet, MissionResult]) -> None:
+    _, result = flown
+    assert result.outcome is not None
+    rejected, waiting = (
+        replace(result, losses=Losses((GoalEnd(0, fate, 3),))) for fate in (GoalFate.REJECTED, GoalFate.OPEN)
+    )
+    failed = replace(
+        waiting,
+        outcome=replace(result.outcome, last_tick=50),
+        judgement=replace(result.judgement, code="F1"),
+    )
+    assert is_farther(waiting, failed)
+    assert not is_farther(rejected, failed)
+    assert is_farther(rejected, replace(failed, losses=rejected.losses))
