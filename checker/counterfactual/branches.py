@@ -8,7 +8,7 @@ from checker.counterfactual.instructions import flat
 from compiler.program import Child, Guard, Instruction, RuleCode
 from nddl_lang.text.source import Span
 
-_SAYS = re.compile(r"\s*([A-Za-z_][\w.]*)\s*([<>=!]=?)")
+_SAYS = re.compile(r"\s*([A-Za-z_][\w.]*)\s*([<>=!]=?)\s*([A-Za-z_][\w.]*\s*;)?")
 _MOMENT = re.compile(r"(?:\w+\.)?(?:start|end)")
 _EMPTY_ELSE = re.compile(r"\}\s*else\s*\{\s*\}\s*$")
 
@@ -20,7 +20,7 @@ def uneven_branches(graph: Dependence) -> list[LooseEnd]:
         for rule in program.rules:
             for guard in (step for step in flat(rule.body) if isinstance(step, Guard)):
                 sites = [one for one in graph.at_span(guard.span) if not graph.sites[one].is_rule]
-                for name in sorted(_uneven(guard, rule, graph)) if sites else ():
+                for name in sorted(set(_uneven(guard, rule, graph))) if sites else ():
                     found[LooseEnd(sites[0], name, is_local=True, is_uneven=True)] = None
     return list(found)
 
@@ -29,12 +29,14 @@ def _uneven(guard: Guard, rule: RuleCode, graph: Dependence) -> Iterator[str]:
     branches = [guard.then, guard.otherwise]
     if not guard.otherwise and not _EMPTY_ELSE.search(guard.span.text):
         return  # nothing is said of the other case
-    elsewhere = _names(_outside(rule, guard), graph)
+    elsewhere = {name for name, _, _ in _said(_outside(rule, guard), graph)}
     for one, other in (branches, branches[::-1]):
         own = {step.label for step in flat(one) if isinstance(step, Child)}
-        spans = [step.span for step in flat(one)]
-        for name in _names(spans, graph, sets=True) - _names([step.span for step in flat(other)], graph):
-            if name not in elsewhere and name.partition(".")[0] not in own:
+        there = _said([step.span for step in flat(other)], graph)
+        known = elsewhere | {name for name, _, same in there for name in (name, same)}
+        for name, sign, same in _said([step.span for step in flat(one)], graph):
+            is_moment = sign != "==" and _MOMENT.fullmatch(name) is not None  # a deadline, which one branch may have
+            if not is_moment and not known & {name, same} and name.partition(".")[0] not in own:
                 yield name
 
 
@@ -43,11 +45,11 @@ def _outside(rule: RuleCode, guard: Guard) -> list[Span]:
     return [step.span for step in flat(rule.body) if step not in inside and not isinstance(step, Guard)]
 
 
-def _names(spans: list[Span], graph: Dependence, *, sets: bool = False) -> set[str]:
-    """What lines set or bound: the names that they begin with.
+def _said(spans: list[Span], graph: Dependence) -> set[tuple[str, str, str]]:
+    """What lines set or bound: the name that each begins with, its sign, and after `==` the name that is the same.
 
-    With `sets` without what is no more than a deadline, or a time to wait for: one branch alone may well have one.
+    Where one branch says `bake.end == end`, and the other `retract.end == end`, both say what `end` is.
     """
     texts = {graph.sites[one].text for span in spans for one in graph.at_span(span)}
-    said = [found.groups() for text in texts if (found := _SAYS.match(text))]
-    return {name for name, sign in said if not (sets and sign != "==" and _MOMENT.fullmatch(name))}
+    found = [match.groups("") for text in texts if (match := _SAYS.match(text))]
+    return {(name, sign, same.rstrip("; ") if sign == "==" and same else name) for name, sign, same in found}

@@ -119,11 +119,21 @@ def test_a_condition_without_else_is_not_uneven(tmp_path: Path, capsys: pytest.C
     ],
 )
 def test_a_deadline_on_one_branch_is_nothing_that_the_other_lacks(tmp_path: Path, line: str, told: list[str]) -> None:
-    rule = f"  if (load == Load.heavy) {{\n    {line}\n  }} else {{\n    object == object;\n  }}\n"
-    path = tmp_path / "crane.nddl"
+    assert [one for one in uneven(tmp_path, line, "object == object;") if one != "object"] == told
+
+
+def test_what_both_branches_hold_to_one_time_is_said_in_both(tmp_path: Path) -> None:
+    assert uneven(tmp_path, "meets(object.Idle rest); rest.start == end;", "lower.start == end;") == []
+    assert uneven(tmp_path, "lower.end == HEAVY_TIME;", "lower.start == end;") == ["lower.end", "lower.start"]
+
+
+def uneven(folder: Path, line: str, other: str) -> list[str]:
+    """What one branch sets, with a line in the first and another one in the second."""
+    rule = f"  if (load == Load.heavy) {{\n    {line}\n  }} else {{\n    {other}\n  }}\n"
+    path = folder / "crane.nddl"
     path.write_text(MODEL.replace(MODEL[MODEL.index("  if (load") : MODEL.index("}\nCrane::Lower")], rule))
     graph = Dependence([compile_model(analyse_file(path))], sites_of(load_graph(path, ())))
-    assert [one.variable for one in uneven_branches(graph) if one.variable != "object"] == told
+    return [one.variable for one in uneven_branches(graph)]
 
 
 def test_a_sign_between_the_same_words_is_meant_as_elsewhere(tmp_path: Path) -> None:
