@@ -21,6 +21,7 @@
 #   make truths       conditions of models whose truth is known, each on FRESH (2000) fresh missions
 #   make kills        KILLS (20) batches killed by SIGKILL and as many by SIGTERM, resumed, beside undisturbed ones
 #   make agents       AGENTS (500) random missions of random reactors, flown in every way and put to an oracle of their traces
+#   make cases        every small mission several times in one process, whatever the one before has left behind
 #   make variants     the eight mistakes of models/auv/bugs, each explained
 #   make mutants      MUTANTS (2000) faulty missions, flown compiled, interpreted and by the general engine, and judged
 #   make renames      rename every name of every model, and compare what the models mean
@@ -50,7 +51,7 @@ TICKING := $(BIN)/python build_backend/ticking.py
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study judge-study conflict-study controllability-proof study truths kills variants mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build engine lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study judge-study conflict-study controllability-proof study truths kills cases variants mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -66,32 +67,41 @@ check: missions
 
 missions:
 	+@rm -f $(FINDINGS)
-	+@MAKEFLAGS= $(MAKE) --no-print-directory build
+	+@MAKEFLAGS= $(MAKE) --no-print-directory -j2 build
 	+@$(BIN)/nddlc check $(MISSION) || { status=$$?; [ $$status -eq 1 ] && touch $(FINDINGS) || exit $$status; }
 
-test: lint types compiled interpreted build/builds-tested
+# What compiles the engine is there long before all the rest has been fetched.
+test:
+	+@$(MAKE) --no-print-directory -j2 build
+	+@$(MAKE) --no-print-directory lint compiled interpreted build/builds-tested
 
 setup: .venv/ready
 
 # An environment is tied to its place: one that came along with a copy of the checkout is made anew.
 SET_UP_IN := $(shell cat .venv/ready 2>/dev/null)
 ifneq ($(SET_UP_IN),$(CURDIR))
-.PHONY: .venv/ready
+.PHONY: .venv/compiler .venv/ready
 endif
 
-.venv/ready: pyproject.toml setup.py build_backend/nddlc_build.py
+.venv/compiler: pyproject.toml setup.py build_backend/nddlc_build.py
 	@[ -z "$(SET_UP_IN)" ] || [ "$(SET_UP_IN)" = "$(CURDIR)" ] || rm -rf .venv
 	@for python in $(PYTHON); do \
 	  $$python -c 'import ensurepip, sys, venv; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && break; python=; done; \
 	[ "$$python" ] || { echo 'Python 3.11 or newer, with its venv, is not on the path; try PYTHON=...' >&2; exit 1; }; \
 	$(BIN)/python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
 	{ echo "making .venv with $$($$python --version)" && $$python -m venv --clear .venv; }
+	@$(TICKING) 'installing what compiles' $(PIP) 'setuptools>=77' && \
+	$(TICKING) 'installing what compiles' $(PIP) $$($(BIN)/python build_backend/nddlc_build.py)
+	@touch $@
+
+.venv/ready: .venv/compiler
 	@echo 'installing into .venv (once; a minute or two)'
 	@NDDLC_NO_COMPILE=1 $(TICKING) 'installing into .venv' $(PIP) --editable '.[dev]'
-	@$(TICKING) 'installing what compiles' $(PIP) $$($(BIN)/python build_backend/nddlc_build.py)
 	@echo "$(CURDIR)" > $@
 
-build: setup
+build: setup engine
+
+engine: .venv/compiler
 	@$(BIN)/python build_backend/build_in_place.py
 	@$(TICKING) 'making bytecode' $(BIN)/python -m compileall -q nddl_lang compiler runtime checker lsp nddlc
 
@@ -173,6 +183,9 @@ KILLS := 20
 
 kills: build
 	NDDLC_KILLS=$(KILLS) $(BIN)/python -m pytest -q -rP tests/checker/test_interrupt.py -k killed
+
+cases: build
+	NDDLC_CASES=all $(PYTEST) tests/executive/test_stock.py
 
 variants: build
 	NDDLC_VARIANTS=1 $(BIN)/python -m pytest -q tests/models/test_variants_explained.py tests/checker/test_yardstick.py

@@ -25,7 +25,8 @@ def tree(tmp_path: Path) -> Path:
         command = tmp_path / ".venv" / "bin" / name
         command.write_text(f'#!/bin/sh\necho {name} "$@"\n[ {name} = python ] || exit $ENDS_WITH\n', encoding="ascii")
         command.chmod(0o755)
-    (tmp_path / ".venv" / "ready").write_text(f"{tmp_path}\n", encoding="utf-8")
+    for name in ("compiler", "ready"):
+        (tmp_path / ".venv" / name).write_text(f"{tmp_path}\n", encoding="utf-8")
     return tmp_path
 
 

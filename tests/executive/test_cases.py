@@ -68,6 +68,7 @@ def test_what_must_come_out_does(folder: Path) -> None:
         check_draws(draw, events)
 
 
+@pytest.mark.once
 @pytest.mark.parametrize("folder", CASES, ids=lambda folder: folder.name)
 def test_visiting_every_tick_changes_nothing(folder: Path) -> None:
     agent, programs = loaded(folder)
