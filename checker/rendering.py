@@ -165,6 +165,8 @@ def confirmation_text(found: Confirmation, condition: Condition | None = None) -
         case Finding.CONFIRMED:
             text = f"confirms the conflict: its {len(found.core)} statements contradict each other"
             text += ", and none can be left out" if found.is_minimal else ""
+            if len(found.core) == 1:
+                text = "confirms the conflict: its one statement cannot hold"
             text += f" ({found.written} read from the model's text)" if found.written else ""
             text += "".join(_called_text(one) for one in found.called)
             if condition is not None and condition.in_terms:

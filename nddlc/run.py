@@ -92,6 +92,9 @@ def _report(name: str, flight: Flight) -> str:
     lines += [_told(alike) for alike in sorts_of(event for event in events if event.kind in _TOLD)]
     counts = Counter(event.kind for event in events)
     done = sum(event.kind is EventKind.ACHIEVED and (event.request or 0) < 0 for event in events)
+    asked = sum(event.kind is EventKind.REQUEST and (event.request or 0) >= 0 for event in events)
+    met = {event.request for event in events if event.kind is EventKind.ACHIEVED}
+    back = len({event.request for event in events if event.kind is EventKind.REJECT} & met)
     lines.append(
         f"{name}, seed {flight.settings.seed}: {judgement.verdict.value}"
         f"{f' {judgement.code}' if judgement.code else ''} at tick {outcome.last_tick}\n"
@@ -99,9 +102,9 @@ def _report(name: str, flight: Flight) -> str:
     if judgement.verdict is not Verdict.PASS:
         lines.append(f"  {failure_text(judgement, refusal=missed_after(outcome))}\n")
     lines.append(
-        f"  goals achieved {done}, open {len(outcome.open_goals)}; requests {counts[EventKind.REQUEST]}, "
-        f"rejected {counts[EventKind.REJECT]}, refused {counts[EventKind.REFUSE]}, "
-        f"recalled {counts[EventKind.RECALL]}; repairs {counts[EventKind.RELAX]}\n"
+        f"  goals achieved {done}, open {len(outcome.open_goals)}; requests between reactors {asked}, "
+        f"rejected {counts[EventKind.REJECT]}{f' ({back} came back)' if back else ''}, "
+        f"refused {counts[EventKind.REFUSE]}, recalled {counts[EventKind.RECALL]}; repairs {counts[EventKind.RELAX]}\n"
     )
     lines += [f"  open: {goal_text(goal)}{_so_far(goal, outcome.events)}\n" for goal in outcome.open_goals]
     if judgement.verdict is not Verdict.PASS:

@@ -31,6 +31,7 @@ from nddlc.mission_trust import models_of
 from nddlc.trust import trust_option
 from runtime.executive.configuration import AgentConfiguration, ReactorConfiguration
 from runtime.executive.mission import MissionPrograms, UnusableModelError, record_mission
+from runtime.executive.outcome import RepairStage
 from runtime.executive.record import MissionRecord, ReactorRecord
 from runtime.executive.recorder import Recorder
 from runtime.plan.database import PlanDatabase
@@ -40,13 +41,17 @@ _MOST_TOKENS = 5000
 
 
 class _Judged(NamedTuple):
-    """What was judged, and what it takes to judge it again; `seed` is None where nothing is known of draws."""
+    """What was judged, and what it takes to judge it again; `seed` is None where nothing is known of draws.
+
+    `forgot`: reactors that forgot their past in a repair, and when.
+    """
 
     report: JudgeReport
     agent: AgentConfiguration
     programs: tuple[Program, ...]
     record: MissionRecord
     seed: int | None
+    forgot: tuple[tuple[str, int], ...] = ()
 
 
 @click.command()
@@ -95,10 +100,23 @@ def command(
         data = report_data(report) | ({} if proved is None else {"smt": judgement_data(proved)})
         click.echo(json_text(data))
     else:
-        click.echo(report_text(report, advises=plan.suffix not in MISSION_SUFFIXES))
+        click.echo(report_text(report, advises=plan.suffix == ".json"))
+        for line in _set_aside(judged):
+            click.echo(line)
         if proved is not None:
             click.echo(judgement_text(proved))
     return 0 if report.holds and (proved is None or not proved.broken) else 1
+
+
+def _set_aside(judged: _Judged) -> list[str]:
+    """What a reader of a trace has to know where a plan does not hold that a repair had forgotten in part."""
+    found = {one.reactor for one in judged.report.disagreements}
+    return [
+        f"help: `{reactor}` forgot its past in the repair at tick {tick}: from then on its executive kept no rule that "
+        "speaks of what was over; here all is judged"
+        for reactor, tick in judged.forgot
+        if reactor in found
+    ]
 
 
 def _proved(judged: _Judged) -> ProvedJudgement:
@@ -188,7 +206,9 @@ def _observed(log: MissionLog, whose: Path, is_trusted: bool, *, is_named: bool)
         sum(report.open for report in reports),
         (*(row for report in reports for row in report.skipped), *((reason, 1) for reason in (*foreign, *cut_off))),
     )
-    return _Judged(report, agent, programs.programs, MissionRecord(tuple(plans)), None)
+    repairs = [one for one in log.events if one.get("stage") == RepairStage.FORGET_PAST]
+    forgot = tuple((str(one["reactor"]), int(one["tick"])) for one in repairs)
+    return _Judged(report, agent, programs.programs, MissionRecord(tuple(plans)), None, forgot)
 
 
 def _owned(agent: AgentConfiguration) -> list[tuple[str, ...]]:

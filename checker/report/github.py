@@ -6,7 +6,7 @@ from checker.excerpts import Excerpts
 from checker.findings import Findings
 from checker.rendering import failure_text
 from checker.report.losses import damage_words, goal_text, repair_text
-from checker.report.sentences import case_lines, decision, explained_by, fault_title, headline
+from checker.report.sentences import case_lines, decision, explained_by, fault_title, headline, repaired_line
 from nddl_lang.text.github import command_line
 from runtime.executive.outcome import SourcePlace
 
@@ -42,6 +42,7 @@ def github_report(findings: Findings, excerpts: Excerpts) -> str:
         decision(findings),
         *cases,
         *([f"cost: {cost}"] if cost else []),
+        *([line] if (line := repaired_line(findings)) else []),
         f"run {findings.run_id}, seed {findings.seed}",
     ]
     lines.append(command_line("notice", {"title": headline(findings)}, "\n".join(whole)))

@@ -16,6 +16,7 @@ from checker.report.sentences import (
     origin_of_errors,
     percent,
     rate_line,
+    repaired_line,
     verdict_word,
 )
 from checker.sampling.rendering import describe
@@ -73,7 +74,8 @@ def _costs(findings: Findings, excerpts: Excerpts) -> list[str]:
     lines += [f"undelivered: {unmet_text(one)}" for one in tally.undelivered]
     lines += [f"request given up: {unmet_text(one)}" for one in tally.given_up]
     more = [f"{len(lines) - _MOST_LINES} more are in the JSON report"] if len(lines) > _MOST_LINES else []
-    return [goal_line(tally), request_line(tally), *lines[:_MOST_LINES], *more]
+    repaired = [line] if (line := repaired_line(findings)) else []
+    return [goal_line(tally), request_line(tally), *repaired, *lines[:_MOST_LINES], *more]
 
 
 def _plain(text: str) -> str:

@@ -2,6 +2,7 @@
 
 from checker.counterfactual.trials import TrialsEnd
 from checker.findings import Ending, Findings, regressed
+from checker.losses import Limit
 from checker.oracle import CODE_NAMES, USER_CODE, Verdict
 from checker.rate import Method, Rate
 from checker.regression import FlownCase
@@ -155,6 +156,17 @@ def decision(findings: Findings) -> str:
         "and so is the whole interval" if rate.is_certain else "though the interval reaches beyond: more missions tell"
     )
     return f"{'HOLDS' if findings.holds else 'UNDECIDED'}: the rate is within {limit}, {sure}"
+
+
+def repaired_line(findings: Findings) -> str:
+    """How many missions passed after a repair, where nobody has said how many repairs are too many."""
+    passed = sum(one.verdict is Verdict.PASS and one.losses.repaired > 0 for one in findings.results)
+    if not passed or any(limit is Limit.REPAIRS for limit, _ in findings.mission.check.limits):
+        return ""
+    return (
+        f"{missions(passed)} passed after repairs, which may set aside what a rule says of what was over by then: "
+        "`max_repairs = 0` in [check] makes such missions fail"
+    )
 
 
 def fault_title(findings: Findings, index: int) -> str:

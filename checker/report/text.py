@@ -16,6 +16,7 @@ from checker.report.sentences import (
     headline,
     origin_of_errors,
     rate_line,
+    repaired_line,
     sensitivity_line,
     stop_line,
 )
@@ -35,7 +36,13 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
     lines.append(f"  {rate_line(findings.rate)}")
     lines += [
         f"  {line}"
-        for line in (cut_line(findings), stop_line(findings), *case_lines(findings), sensitivity_line(findings))
+        for line in (
+            repaired_line(findings),
+            cut_line(findings),
+            stop_line(findings),
+            *case_lines(findings),
+            sensitivity_line(findings),
+        )
         if line
     ]
     lines += [f"  {line}" for line in loss_lines(findings.tally, excerpts)]

@@ -96,6 +96,7 @@ def test_a_check_that_holds_says_what_was_lost(mission: Path, capsys: pytest.Cap
     text = capsys.readouterr().out
     assert "HOLDS" in text
     assert "cost: 10 goals rejected, 10 goals late, 10 repairs of plans" in text
+    assert "10 missions passed after repairs, which may set aside what a rule says" in text
     assert "goals: 20 achieved, 10 late, 10 rejected, 0 open (4 goals a mission, all of them optional)" in text
     assert "given up: Transit on `nav` (optional), mission.toml:51, in 10 missions: 10 × too late; first in 1" in text
     data = json.loads(Path("nddlc-report/report.json").read_text())
@@ -109,6 +110,7 @@ def test_a_check_that_holds_says_what_was_lost(mission: Path, capsys: pytest.Cap
     page = Path("nddlc-report/report.html").read_text()
     assert "10 goals rejected, 10 goals late" in page
     assert "mission.toml:51" in page
+    assert "10 missions passed after repairs" in page
 
 
 def test_a_limit_on_losses_fails_the_missions_without_flying_again(

@@ -11,6 +11,7 @@ from nddlc.run import sorts_of
 from runtime.executive.outcome import Event, EventKind, Phase
 
 ORDER = Path(__file__).parents[1] / "executive" / "missions" / "order_of_requests"
+CASES = ORDER.parents[1] / "cases"
 REPAIR = Path(__file__).parents[1] / "executive" / "missions" / "repair"
 
 
@@ -154,3 +155,8 @@ def test_what_takes_turns_is_told_once_each() -> None:
     other = Event(1, Phase.REPAIR, EventKind.REJECT, "a")
     assert sorts_of([first, other] * 3) == [[first] * 3, [other] * 3]
     assert sorts_of([first, second, other, first]) == [[first], [second], [other], [first]]
+
+
+def test_a_goal_that_came_back_is_not_counted_as_lost(capsys: pytest.CaptureFixture[str]) -> None:
+    _, shown = flown(capsys, "run", str(CASES / "rejected_request_comes_back/mission.toml"))
+    assert "goals achieved 1, open 0; requests between reactors 2, rejected 1 (1 came back), refused 0" in shown
