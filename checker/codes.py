@@ -43,3 +43,9 @@ UNKNOWN_ELEMENT = Code("NDDL726", Severity.ERROR, "name", "no element `{tag}` in
 NO_EFFECT = Code("NDDL727", Severity.WARNING, "name", "`{what}` has no effect here")
 NO_RESOURCE = Code("NDDL728", Severity.ERROR, "name", "no model has a resource `{name}`")
 NO_REACTOR = Code("NDDL729", Severity.ERROR, "name", "there is no reactor `{name}`")
+NO_THREATS = Code(
+    "NDDL733", Severity.WARNING, "rule", "nothing orders the uses of `{resource}` in the plans of `{reactor}`"
+)
+NO_REQUESTS = Code(
+    "NDDL734", Severity.WARNING, "rule", "`{timeline}` takes no requests: its owner `{owner}` has a lookahead of 0"
+)

@@ -15,8 +15,10 @@ from checker.codes import (
     NO_PREDICATE,
     NO_RANGE,
     NO_REACTOR,
+    NO_REQUESTS,
     NO_RESOURCE,
     NO_TEXT_FILE,
+    NO_THREATS,
     NO_TIMELINE,
     NOT_TOML,
     OTHER_ROLE,
@@ -249,6 +251,25 @@ MISSION_PAGES = (
         "Its plan is where the level of the resource is looked up.",
         '[[property]]\nname = "reserve"\nkind = "level"\nresource = "battery"\nreactor = "vehcle"\nmargin = 5\n',
         '[[property]]\nname = "reserve"\nkind = "level"\nresource = "battery"\nreactor = "vehicle"\nmargin = 5\n',
+        "toml",
+    ),
+    RulePage(
+        NO_THREATS,
+        "The model of a planner has a resource, and the solver of that planner has no `ResourceThreatManager`.",
+        "As with EUROPA, nothing then orders what uses the resource: plans overstep its limits as time goes by, "
+        "are repaired, and the mission ends where no repair helps.",
+        '[[reactor]]\nname = "pilot"\nmodel = "pilot.nddl"   # Reservoir battery = new Reservoir(100.0, 20.0, 150.0);\n'
+        "lookahead = 300\n",
+        '[[reactor]]\nname = "pilot"\nmodel = "pilot.nddl"\nsolver = "pilot.toml"    # has a ResourceThreatManager\n'
+        "lookahead = 300\n",
+        "toml",
+    ),
+    RulePage(
+        NO_REQUESTS,
+        "A planner's rules ask for tokens on a timeline whose owner has a lookahead of 0.",
+        "Such an owner takes no requests: what is planned there never begins, and the mission ends when it is due.",
+        '[[reactor]]\nname = "vehicle"\nmodel = "vehicle.nddl"\nlookahead = 0\ninternal = ["helm"]\n',
+        '[[reactor]]\nname = "vehicle"\nmodel = "vehicle.nddl"\nlookahead = 1\ninternal = ["helm"]\n',
         "toml",
     ),
     RulePage(

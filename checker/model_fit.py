@@ -19,6 +19,7 @@ from checker.mission_table import describe
 from compiler.program import DomainConstant, ParameterSite, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.nearest import nearest
+from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.expression import parse_expression
@@ -82,7 +83,7 @@ def sampling_misfits(mission: Mission, sites: Mapping[str, ParameterSite]) -> It
     """Complain of parameters that no model samples, and of those that have no range anywhere."""
     for parameter in mission.agent.parameters:
         site = sites.get(parameter.name)
-        span = mission.text.key_span(("parameters", parameter.name))
+        span = _span_of(mission, parameter)
         if site is None:
             advice = _advice(parameter.name, [*sites], "sampled parameters")
             yield UNUSED_PARAMETER.at(span, name=parameter.name, help=advice)
@@ -103,6 +104,15 @@ def sampling_misfits(mission: Mission, sites: Mapping[str, ParameterSite]) -> It
         if name not in listed and _bounds(site.default) is None:
             advice = f"write [parameters.{name}] with a `range` in {mission.source.name}"
             yield NO_RANGE.at(site.uses[0], name=name, help=advice)
+
+
+def _span_of(mission: Mission, parameter: ParameterConfiguration) -> Span:
+    """Where a parameter is written: the head of its table, or its name in that of a joint one."""
+    kind, _, table = parameter.stream.partition(" ")
+    if kind == "joint" and table:
+        columns = [one.name for one in mission.agent.parameters if one.stream == parameter.stream]
+        return mission.text.value_span(("joint", table, "parameters", columns.index(parameter.name)))
+    return mission.text.key_span(("parameters", parameter.name))
 
 
 def _unread(parameter: ParameterConfiguration, mission: Mission, sites: Mapping[str, ParameterSite]) -> str | None:

@@ -11,6 +11,7 @@ from checker.influence import Influence, lines_of_influence
 from checker.mission import Mission, read_mission
 from checker.model_fit import complete, find_misfits, sampling_misfits
 from checker.names import relative_name
+from checker.planner_fit import unordered_resources
 from checker.property_fit import property_misfits
 from checker.role_fit import find_role_misfits
 from compiler.lower import compile_model
@@ -96,7 +97,8 @@ def load_models(mission: Mission, open_text: OpenText = read_text) -> ModelSet:
     configured = [read_source(root / name) for name in solvers]
     texts |= {name: source.text for name, source in zip(solvers, configured, strict=True)}
     told = [analysis.diagnostics for analysis in analyses.values()]
-    told += [read_configuration(source)[1] for source in configured]
+    readings = [read_configuration(source) for source in configured]
+    told += [complaints for _, complaints in readings]
     found: dict[tuple[str, int, str, str], Diagnostic] = {}
     for one in chain.from_iterable(told):
         found.setdefault((one.span.source.name, one.span.begin, one.code.id, one.message), one)
@@ -106,6 +108,8 @@ def load_models(mission: Mission, open_text: OpenText = read_text) -> ModelSet:
     sites = _sites(programs)
     misfits = [*find_misfits(mission, programs), *sampling_misfits(mission, sites)]
     misfits += find_role_misfits(mission, programs, library.constraints)
+    settings = {name: reading for name, (reading, _) in zip(solvers, readings, strict=True)}
+    misfits += unordered_resources(mission, programs, settings)
     misfits += property_misfits(mission, programs)
     if mission.figures is not None:
         misfits += figure_misfits(mission.figures, mission.text, agent, programs)

@@ -53,7 +53,8 @@ def _read_parameter(name: str, table: Table) -> tuple[ParameterConfiguration, bo
     clip = table.bounds("clip")
     table.asked += ["mean", "sigma"]
     table.close()
-    for reason in _ill_distribution(table, shape, values, weights, expression):
+    _tell_ill_weights(table, weights, len(values))
+    for reason in _ill_distribution(table, shape, values, expression):
         table.text.diagnostics.append(ILL_DISTRIBUTION.at(table.text.key_span(table.path), reason=reason))
     if "value" in distribution.keys:
         values = (value,)
@@ -78,9 +79,7 @@ def _read_parameter(name: str, table: Table) -> tuple[ParameterConfiguration, bo
     return found, has_range
 
 
-def _ill_distribution(
-    table: Table, name: str, values: tuple[float, ...], weights: tuple[float, ...], expression: str
-) -> list[str]:
+def _ill_distribution(table: Table, name: str, values: tuple[float, ...], expression: str) -> list[str]:
     """What the keys of a distribution lack, or have in vain."""
     reasons: list[str] = []
     distribution = DISTRIBUTIONS[name]
@@ -89,7 +88,6 @@ def _ill_distribution(
     for key in ("value", "expression"):
         if key in distribution.needs and not table.has(key):
             reasons.append(f"a {name} distribution needs `{key}`")
-    reasons += _ill_weights(weights, len(values))
     if table.has("mean") != table.has("sigma") and name == "normal" and not table.has("range"):
         reasons.append("a normal distribution without a `range` needs both `mean` and `sigma`")
     for key in _OWN_KEYS:
@@ -108,13 +106,17 @@ def _ill_distribution(
     return reasons
 
 
-def _ill_weights(weights: tuple[float, ...], count: int) -> list[str]:
+def _tell_ill_weights(table: Table, weights: tuple[float, ...], count: int) -> bool:
+    """Complain of weights that are none; whether there was a complaint."""
     reasons = []
     if weights and len(weights) != count:
-        reasons.append(f"there are {len(weights)} weights for {count} values")
+        reasons.append(f"`weights` has {len(weights)} of {count}, one for each of the values")
     if weights and (min(weights) < 0.0 or sum(weights) <= 0.0):
         reasons.append("weights must not be negative, and one must be above 0")
-    return reasons
+    for reason in reasons:
+        span = table.text.value_span((*table.path, "weights"))
+        table.text.diagnostics.append(ILL_DISTRIBUTION.at(span, reason=reason))
+    return bool(reasons)
 
 
 def _read_joint(name: str, table: Table, known: list[ParameterConfiguration]) -> list[ParameterConfiguration]:
@@ -125,7 +127,8 @@ def _read_joint(name: str, table: Table, known: list[ParameterConfiguration]) ->
     mode = cast("Mode", table.choice("mode", ("inter", "intra"), "inter"))
     update = table.whole("update", 10, 1)
     table.close()
-    reasons = _ill_weights(weights, len(rows))
+    is_ill = _tell_ill_weights(table, weights, len(rows))
+    reasons = []
     if table.values.get("parameters", []) == [] or table.values.get("rows", []) == []:
         reasons.append("a joint table needs `parameters`, a list of names, and `rows` with a value for each")
     for reason in reasons:
@@ -137,7 +140,7 @@ def _read_joint(name: str, table: Table, known: list[ParameterConfiguration]) ->
             notes = (Note("first here", table.text.key_span(("parameters", one))),)
             table.text.diagnostics.append(TWICE.at(span, what="the parameter", name=one, notes=notes))
         taken.add(one)
-    if reasons or not rows:
+    if is_ill or reasons or not rows:
         return []
     columns = zip(names, zip(*rows, strict=True), strict=True)
     return [

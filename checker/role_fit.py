@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from checker.codes import NO_DEFAULT, OTHER_ROLE, UNLISTED
 from checker.mission import Mission
+from checker.planner_fit import vain_requests
 from compiler.program import ClassCode, Constant, Program, SuperCode
 from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.nearest import nearest
@@ -47,6 +48,8 @@ def find_role_misfits(
                         help=_move(timeline, mode),
                         notes=_declared(programs[reactor.model], timeline),
                     )
+        modes = {timeline: bench.mode(names.index(timeline)) for timeline in reactor.external if timeline in names}
+        yield from vain_requests(mission, number, programs[reactor.model], modes)
         written = (*reactor.internal, *reactor.external)
         meant = {each if each in names else nearest(each, names) for each in written}  # a misspelt one is told already
         for timeline in names:

@@ -6,6 +6,7 @@ import click
 
 from checker.mission import Mission, read_mission
 from checker.models import ModelSet
+from checker.sampling.rendering import describe
 from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.nearest import nearest
@@ -13,6 +14,7 @@ from nddl_lang.text.render import render
 from nddlc.fitting import colours, columns, fitted
 from nddlc.inputs import Unusable, readable
 from nddlc.mission_trust import models_of
+from runtime.executive.configuration import ParameterConfiguration
 
 
 def prepare(path: str, *, is_trusted: bool, is_named: bool = True) -> tuple[Path, Mission, ModelSet]:
@@ -40,6 +42,15 @@ def _tell(diagnostics: tuple[Diagnostic, ...]) -> None:
             click.echo(fitted(render(one, colour=colours()), columns()), err=True)
 
 
+def _may_be_drawn(parameter: ParameterConfiguration, value: float) -> bool:
+    """Whether a draw of a parameter may have a value; of those with open ends or an expression nothing is said."""
+    if parameter.is_whole and not value.is_integer():
+        return False
+    if parameter.values:
+        return value in parameter.values
+    return parameter.distribution != "uniform" or parameter.lower <= value <= parameter.upper
+
+
 def values_of(given: tuple[str, ...], models: ModelSet) -> dict[str, float]:
     """Values for parameters, from `NAME=VALUE`."""
     known = [parameter.name for parameter in models.agent.parameters]
@@ -55,4 +66,7 @@ def values_of(given: tuple[str, ...], models: ModelSet) -> dict[str, float]:
         except ValueError:
             problem = f"`{name}` takes a number, not `{text}`" if text else f"`{one}` gives no value"
             raise Unusable(problem, f"write `{name}=` and a number") from None
+        parameter = next(one for one in models.agent.parameters if one.name == name)
+        if not _may_be_drawn(parameter, values[name]):
+            click.echo(f"note: {text} is never drawn: {name} is {describe(parameter)}", err=True)
     return values

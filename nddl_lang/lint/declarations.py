@@ -58,7 +58,8 @@ def _globals(whole: Whole, part: Part, node: VariableDecl) -> Iterator[Diagnosti
             continue
         if variable.name in whole.words or isinstance(declarator.initialiser, NewExpr):
             continue
-        fix = undeclare(node, index, safe=True)
+        # What somebody wrote down is often read by a line that is missing.
+        fix = undeclare(node, index, safe=declarator.initialiser is None)
         yield UNUSED_GLOBAL.at(declarator.name.span, fixes=(fix,), name=variable.name)
 
 

@@ -28,6 +28,7 @@ close();
 OWNER = MODEL.replace("drive = new Drive(Internal)", "drive = new Drive(External)").replace(
     "other = new Drive(External)", "other = new Drive(Internal)"
 )
+SAMPLED = "no model samples a parameter `{}`"
 MISSION = """\
 [mission]
 name = "drive"
@@ -133,6 +134,53 @@ def test_a_parameter_of_whole_numbers_is_drawn_from_such(capsys: pytest.CaptureF
     for keys, reason in (("range = [0.2, 0.7]", "there is none from 0.2 to 0.7"), ("values = [1, 2.5]", "2.5 is none")):
         ((code, _, message, _),) = found(MISSION + f"[parameters.LEGS]\n{keys}\n", capsys)
         assert (code, message) == ("NDDL713", f"the model samples whole numbers, and {reason}")
+
+
+def test_a_parameter_of_a_joint_table_that_nobody_samples_is_named_in_it(capsys: pytest.CaptureFixture[str]) -> None:
+    text = MISSION + '[joint.AIR]\nparameters = ["LEGS", "HEAT"]\nrows = [[1, 2], [3, 4]]\n'
+    ((code, line, message, _),) = found(text, capsys)
+    assert (code, line, message) == ("NDDL714", text[: text.index('"HEAT"')].count("\n") + 1, SAMPLED.format("HEAT"))
+
+
+def test_a_value_that_is_never_drawn_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("mission.toml").write_text(MISSION)
+    for value, told in (("4", ""), ("12", "note: 12 is never drawn: LEGS is uniform on [0, 9]")):
+        run(["run", "mission.toml", "--param", f"LEGS={value}"])
+        assert capsys.readouterr().err.startswith(told)
+
+
+def test_an_owner_that_takes_no_requests_is_told_of(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    asking = MODEL.replace("duration >= 3;", "duration >= 3; contains(Drive.Go there); there.object == other;")
+    asking = asking.replace(
+        "class Drive ",
+        "class Second extends AgentTimeline { predicate Still {} predicate Go {}\n"
+        '  Second(Mode m) { super(m, "Still"); } }\nclass Drive ',
+    )
+    asking = asking.replace("contains(Drive.Go there); there.object == other;", "contains(Second.Go there);")
+    asking = asking.replace("Drive other = new Drive(External)", "Second other = new Second(External)")
+    (folder / "driver.nddl").write_text(asking)
+    (folder / "second.nddl").write_text(
+        asking.replace("t == sampledParameter(LEGS); ", "")
+        .replace("Second other = new Second(External)", "Second other = new Second(Internal)")
+        .replace("Drive drive = new Drive(Internal);\n", "")
+    )
+    still = MISSION.replace('model = "second.nddl"', 'model = "second.nddl"\nlookahead = 0')
+    assert [(code, message) for code, _, message, _ in found(still, capsys)] == [
+        ("NDDL734", "`other` takes no requests: its owner `second` has a lookahead of 0")
+    ]
+    assert found(still.replace('external = ["other"]', 'external = ["other"]\nobserve = ["other"]'), capsys) == []
+    assert found(still.replace("lookahead = 0", "lookahead = 1"), capsys) == []
+
+
+def test_a_resource_whose_uses_nobody_orders_is_told_of(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    stored = "Reservoir battery = new Reservoir(50.0, 0.0, 90.0);\nclose();"
+    (folder / "driver.nddl").write_text(MODEL.replace("close();", stored))
+    told = [("NDDL733", "nothing orders the uses of `battery` in the plans of `driver`")]
+    assert [(code, message) for code, _, message, _ in found(MISSION, capsys)] == told
+    for component, complaints in (("ResourceThreatManager", []), ("OpenConditionManager", told)):
+        (folder / "s.toml").write_text(f'[[manager]]\ncomponent = "{component}"\n')
+        text = MISSION.replace('model = "driver.nddl"', 'model = "driver.nddl"\nsolver = "s.toml"')
+        assert [(code, message) for code, _, message, _ in found(text, capsys)] == complaints
 
 
 def test_roles_of_model_and_mission_are_compared(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -142,7 +142,7 @@ update = 4
         ('[parameters.A]\ndistribution = "normal"\nmean = 3\n', 15, "without a `range` needs both `mean` and `sigma`"),
         ("[parameters.A]\nrange = [0, 1]\ndistribution = 'uniform'\nmean = 3\n", 15, "`mean` belongs to a normal or"),
         ('[joint.S]\nparameters = ["A", "B"]\nrows = [[1, 2], [3]]\n', 17, "`rows` must be a list of rows of 2"),
-        ('[joint.S]\nparameters = ["A"]\nrows = [[1]]\nweights = [1, 2]\n', 15, "there are 2 weights for 1 values"),
+        ('[joint.S]\nparameters = ["A"]\nrows = [[1]]\nweights = [1, 2]\n', 18, "`weights` has 2 of 1"),
         ('[parameters.A]\nvalue = 1\n[joint.S]\nparameters = ["A"]\nrows = [[1]]\n', 18, "the parameter `A` is there"),
     ],
 )  # fmt: skip
