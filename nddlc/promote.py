@@ -27,10 +27,8 @@ def command(what: str, name: str | None, store_path: Path, is_trusted: bool) -> 
     shrunk = found.shrunk
     place = regressions_path(found.mission_file)
     title = name or re.sub(r"[^A-Za-z0-9]+", "-", found.was).strip("-")[:60]
-    case = RegressionCase(
-        title, shrunk.result.seed, found.was,
-        final_tick=shrunk.final_tick, goals=shrunk.goals, parameters=shrunk.values,
-    )  # fmt: skip
+    # It ends when the mission does: by the early end of the shrunk one no goal could be achieved, mended or not.
+    case = RegressionCase(title, shrunk.result.seed, found.was, goals=shrunk.goals, parameters=shrunk.values)
     try:
         cases = [one for one in read_cases(place) if one.name != title]
     except RegressionError as problem:
