@@ -37,21 +37,23 @@ class RowBlock:
         self.count = 0
         self.drawn = numbers
         self.holds = bits
-        # Of a block: the rows of its tokens and where their arguments are; what was counted; the rows of each guard.
+        # Of a block: the rows of its tokens, of what stands for them, and where their arguments are; what was counted;
+        # the rows that failed (whole words: stores of bytes would make C read all addresses again); sides of guards.
         self.token_rows = np.zeros(MOST_TOKENS * BLOCK, np.int64)
+        self.token_stands = np.zeros(MOST_TOKENS * BLOCK, np.int64)
         self.argument = np.zeros(MOST_TOKENS * BLOCK, np.int64)
         self.now_judged, self.now_open = np.zeros(BLOCK, np.int64), np.zeros(BLOCK, np.int64)
-        self.fails = np.zeros(BLOCK, np.uint8)
-        self.active = np.zeros((MOST_GUARDS + 1) * BLOCK, np.int64)
-        self.others = np.zeros((MOST_GUARDS + 1) * BLOCK, np.int64)  # in which a guard was not true
-        self.active_count, self.other_count = np.zeros(MOST_GUARDS + 1, np.int64), np.zeros(MOST_GUARDS + 1, np.int64)
+        self.fails = np.zeros(BLOCK, np.int64)
+        self.sides = np.zeros((MOST_GUARDS + 1) * BLOCK, np.int64)
         self.judged = 0
         self.open = 0
 
     def put(self, at: int, row: int) -> int:
         """Note the row of a token."""
+        stands = self.standing[row]
         self.token_rows[at] = row
-        self.argument[at] = self.values[self.standing[row]]
+        self.token_stands[at] = stands
+        self.argument[at] = self.values[stands]
         return 0
 
     def known(self, value: float, kind: int) -> float:
@@ -76,19 +78,19 @@ class RowBlock:
         margin = 1e-5 + 1e-9 * max(math.fabs(x), math.fabs(y))
         return gap <= margin and margin - margin == 0.0
 
-    def relate(self, at: int, many: int, base: int) -> int:
+    def relate(self, at: int, first: int, last: int) -> int:
         """Judge `lower <= second - first <= upper` of two times; where one is open, whether it can hold."""
         lower, upper = self.cells[BLOCK * self.code[at + 5]], self.cells[BLOCK * self.code[at + 6]]
-        for j in range(many):
-            i = self.active[base + j]
-            one = self.standing[self.token_rows[BLOCK * self.code[at + 1] + i]]
-            other = self.standing[self.token_rows[BLOCK * self.code[at + 2] + i]]
-            if self.code[at + 3]:
+        a, b = BLOCK * self.code[at + 1], BLOCK * self.code[at + 2]
+        is_end_a, is_end_b = self.code[at + 3], self.code[at + 4]
+        for i in range(first, last):
+            one, other = self.token_stands[a + i], self.token_stands[b + i]
+            if is_end_a:
                 least_a, most_a = float(self.ends[one]), self.latest[one]
             else:
                 least_a = float(self.starts[one])
                 most_a = least_a if self.begun[one] else math.inf
-            if self.code[at + 4]:
+            if is_end_b:
                 least_b, most_b = float(self.ends[other]), self.latest[other]
             else:
                 least_b = float(self.starts[other])
@@ -107,13 +109,12 @@ class RowBlock:
                     self.fails[i] = 1
         return 0
 
-    def find_children(self, at: int, begin: int, many: int, base: int) -> int:
+    def find_children(self, at: int, begin: int, first: int, last: int) -> int:
         """Find the token of a child by its key; a row fails where it is none that the rule asks for."""
-        table = self.code[at + 3]
-        for j in range(many):
-            i = self.active[base + j]
+        out, table, offset = BLOCK * self.code[at + 1], self.code[at + 3], self.code[at + 2]
+        for i in range(first, last):
             row = -1
-            place = self.first[begin + i] + self.code[at + 2]
+            place = self.first[begin + i] + offset
             if place >= 0 and place < self.child_count:
                 key = self.child_keys[place]
                 if key >= 0 and key < self.key_count:
@@ -127,5 +128,5 @@ class RowBlock:
                 or not self.tables[table + self.predicates[self.standing[row]]]
             ):
                 self.fails[i] = 1
-            self.put(BLOCK * self.code[at + 1] + i, row)
+            self.put(out + i, row)
         return 0

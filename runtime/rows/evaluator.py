@@ -7,16 +7,22 @@ texts. What is not known is NaN, and no operation holds of it.
 """
 
 import math
+import sys
 
 from runtime.rows.block import RowBlock
 from runtime.rows.operations import BLOCK, STRIDE
 
 _EXACT = 2.0**53
+_LARGEST = sys.float_info.max
 _NAN = float("nan")
 
 
 class RowEvaluator(RowBlock):
-    """Evaluates code over a group of tokens."""
+    """Evaluates code over a group of tokens.
+
+    Each operation goes over rows that stand side by side: all of a block, in a branch those on end that took it. An
+    operation that judges counts first in how many of them something is amiss, which mostly is none.
+    """
 
     def run(self) -> int:
         """Evaluate all rows of the group; how many hold."""
@@ -28,9 +34,8 @@ class RowEvaluator(RowBlock):
                 self.now_judged[i] = 0
                 self.now_open[i] = 0
                 self.fails[i] = 0
-                self.active[i] = i
                 self.put(i, self.rows[begin + i])
-            self.evaluate(begin, many)
+            self.evaluate(0, self.length, begin, 0, many, 0)
             for i in range(many):
                 if not self.fails[i]:
                     self.holds[begin + i] = 1
@@ -40,145 +45,109 @@ class RowEvaluator(RowBlock):
             begin += BLOCK
         return found
 
-    def part(self, at: int, begin: int, many: int, level: int) -> int:
-        """Part the rows in which a guard was true from the others; rows that have failed are in neither."""
-        yes, no = BLOCK * (level + 1), BLOCK * (level + 1)
-        for j in range(many):
-            i = self.active[BLOCK * level + j]
-            place = self.shown[begin + i] + self.code[at + 2]
+    def evaluate(self, at: int, until: int, begin: int, first: int, last: int, depth: int) -> int:
+        """Evaluate a part of the code in some rows of a block."""
+        while at < until:
+            op = self.code[at]
+            if op < 7:
+                self.read(at, begin, first, last)
+            elif op == 7:  # CHILD: token, place of its key, table of predicates
+                self.find_children(at, begin, first, last)
+            elif op == 8:  # RELATED
+                self.relate(at, first, last)
+            elif op == 9:  # GUARD: condition, place, where OTHERWISE stands
+                at = self.branch(at, begin, first, last, depth)
+            elif op < 30:
+                self.check(at, first, last)
+            elif op < 50:
+                self.compute(at, first, last)
+            else:
+                self.compare(at, first, last)
+            at += STRIDE
+        return 0
+
+    def branch(self, at: int, begin: int, first: int, last: int, depth: int) -> int:
+        """Evaluate the branches of a guard, each in the rows that took it, as many on end; where the guard ends."""
+        otherwise = self.code[at + 3]
+        end: int = self.code[otherwise + 2]
+        base = BLOCK * depth
+        self.part(at, begin, first, last, base)
+        i = first
+        while i < last:
+            side = self.sides[base + i]
+            j = i + 1
+            while j < last and self.sides[base + j] == side:
+                j += 1
+            if side == 1:
+                self.evaluate(at + STRIDE, otherwise, begin, i, j, depth + 1)
+            elif side == 2:
+                self.evaluate(otherwise + STRIDE, end, begin, i, j, depth + 1)
+            i = j
+        return end
+
+    def part(self, at: int, begin: int, first: int, last: int, base: int) -> int:
+        """Part the rows in which a guard was true (1) from the others (2); rows that have failed are in neither."""
+        condition, offset = BLOCK * self.code[at + 1], self.code[at + 2]
+        for i in range(first, last):
+            self.sides[base + i] = 0
+            place = self.shown[begin + i] + offset
             if place < 0 or place >= self.store_count:
                 self.fails[i] = 1
             if self.fails[i]:
                 continue
-            x = self.cells[BLOCK * self.code[at + 1] + i]
+            x = self.cells[condition + i]
             self.now_judged[i] += 1
             if self.store[place] != 0.0:  # NaN is true, as it is for who reads the register
                 if x != x or x == 0.0:
                     self.fails[i] = 1
-                self.active[yes] = i
-                yes += 1
+                self.sides[base + i] = 1
             else:
                 if x != 0.0:
                     self.fails[i] = 1
-                self.others[no] = i
-                no += 1
-        self.active_count[level + 1] = yes - BLOCK * (level + 1)
-        self.other_count[level + 1] = no - BLOCK * (level + 1)
+                self.sides[base + i] = 2
         return 0
 
-    def evaluate(self, begin: int, many: int) -> int:
-        """Evaluate the code in a block of rows."""
-        level, base, at = 0, 0, 0
-        while at < self.length:
-            op = self.code[at]
-            out, a, b = BLOCK * self.code[at + 1], BLOCK * self.code[at + 2], BLOCK * self.code[at + 3]
-            more = self.code[at + 4]
-            if op == 7:  # CHILD: token, place of its key, table of predicates
-                self.find_children(at, begin, many, base)
-            elif op == 8:  # RELATED
-                self.relate(at, many, base)
-            elif op == 9:  # GUARD: condition, place, where OTHERWISE stands
-                self.active_count[level] = many
-                self.part(at, begin, many, level)
-                level += 1
-                base = BLOCK * level
-                many = self.active_count[level]
-                if not many:
-                    at = self.code[at + 3]
-                    continue
-            elif op == 10:  # OTHERWISE: where the guard ends
-                many = self.other_count[level]
-                for j in range(many):
-                    self.active[base + j] = self.others[base + j]
-                if not many:
-                    at = self.code[at + 2]
-                    continue
-            elif op == 11:  # END of a guard
-                level -= 1
-                base = BLOCK * level
-                many = self.active_count[level]
-            elif op < 7:
-                self.read(at, begin, many, base)
-            elif op < 30:
-                self.check(at, many, base)
-            elif op < 50:
-                self.compute(at, many, base)
-            else:
-                for j in range(many):
-                    i = self.active[base + j]
-                    x, y = self.cells[a + i], self.cells[b + i]
-                    z = _NAN
-                    if x != x or y != y:
-                        self.fails[i] = 1
-                    elif op == 50:  # EQUAL
-                        z = 1.0 if x == y or (not more and self.is_near(x, y)) else 0.0
-                    elif op == 54:  # BOTH
-                        z = 1.0 if x != 0.0 and y != 0.0 else 0.0
-                    elif op == 55:  # EITHER
-                        z = 1.0 if x != 0.0 or y != 0.0 else 0.0
-                    elif op == 56:  # NEITHER: the negation, of one
-                        z = 0.0 if x != 0.0 else 1.0
-                    elif x == y:  # UNEQUAL, IS_AT_MOST, IS_BELOW
-                        z = 1.0 if op == 52 else 0.0
-                    elif not more and not (op == 52 and x < y) and self.is_near(x, y):
-                        self.fails[i] = 1
-                    else:
-                        z = 1.0 if op == 51 or x < y else 0.0
-                    self.cells[out + i] = z
-            at += STRIDE
-        return 0
-
-    def read(self, at: int, begin: int, many: int, base: int) -> int:
+    def read(self, at: int, begin: int, first: int, last: int) -> int:
         """Read values of a record into a register, or count."""
         op, more = self.code[at], self.code[at + 4]
         out, a, b = BLOCK * self.code[at + 1], BLOCK * self.code[at + 2], self.code[at + 3]
         if op == 0:  # PARAMETER of a token: token, number, kind
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 place = self.argument[a + i]
-                x = _NAN
-                if place >= 0 and place + b < self.store_count:
-                    x = self.store[place + b]
-                if x != x:
-                    self.fails[i] = 1
-                self.cells[out + i] = self.known(x, more) if more else x
+                x = self.store[place + b] if place >= 0 and place + b < self.store_count else _NAN
+                self.cells[out + i] = x
+            if more:
+                self.translate(out, first, last, more)
         elif op == 1:  # LOCAL: place, kind
             a = self.code[at + 2]
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 place = self.shown[begin + i] + a
-                x = _NAN
-                if place >= 0 and place < self.store_count:
-                    x = self.store[place]
-                self.cells[out + i] = self.known(x, b) if b else x
-        elif op == 2:  # TIME: token, whether it is the end
-            for j in range(many):
-                i = self.active[base + j]
-                row = self.standing[self.token_rows[a + i]]
-                if b:
-                    self.cells[out + i] = float(self.ends[row])
-                    if self.cells[out + i] != self.latest[row]:
-                        self.fails[i] = 1
-                else:
-                    self.cells[out + i] = float(self.starts[row])
-                    if not self.begun[row]:
-                        self.fails[i] = 1
+                x = self.store[place] if place >= 0 and place < self.store_count else _NAN
+                self.cells[out + i] = x
+            if b:
+                self.translate(out, first, last, b)
+        elif op == 2 and b:  # TIME: token, whether it is the end
+            for i in range(first, last):
+                x = float(self.ends[self.token_stands[a + i]])
+                self.cells[out + i] = x
+                self.fails[i] |= x != self.latest[self.token_stands[a + i]]
+        elif op == 2:
+            for i in range(first, last):
+                self.cells[out + i] = float(self.starts[self.token_stands[a + i]])
+                self.fails[i] |= not self.begun[self.token_stands[a + i]]
         elif op == 3:  # OBJECT of a token
-            for j in range(many):
-                i = self.active[base + j]
-                self.cells[out + i] = self.object_texts[self.objects[self.standing[self.token_rows[a + i]]]]
+            for i in range(first, last):
+                self.cells[out + i] = self.object_texts[self.objects[self.token_stands[a + i]]]
         elif op == 4:  # DRAWN: number of the draw
             place = self.code[at + 2] * self.count + begin
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 self.cells[out + i] = self.drawn[place + i]
         elif op == 5:  # COUNT
-            for j in range(many):
-                self.now_judged[self.active[base + j]] += self.code[at + 2]
+            for i in range(first, last):
+                self.now_judged[i] += self.code[at + 2]
         else:  # COUNT_NEAR: whether only the same is equal, and two values
             b = BLOCK * b
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 x, y = self.cells[a + i], self.cells[b + i]
                 if x != x or y != y:
                     self.fails[i] = 1
@@ -186,79 +155,78 @@ class RowEvaluator(RowBlock):
                     self.now_judged[i] += 1
         return 0
 
-    def check(self, at: int, many: int, base: int) -> int:
+    def translate(self, out: int, first: int, last: int, kind: int) -> int:
+        """Values that were read, as the record has them."""
+        if kind == 2:
+            for i in range(first, last):
+                x = self.cells[out + i]
+                self.cells[out + i] = x if x == 0.0 or x != x else 1.0
+        else:
+            for i in range(first, last):
+                self.cells[out + i] = self.known(self.cells[out + i], kind)
+        return 0
+
+    def check(self, at: int, first: int, last: int) -> int:
         """Let the rows fail in which something does not plainly hold."""
         op, more = self.code[at], self.code[at + 4]
         a, b = BLOCK * self.code[at + 2], BLOCK * self.code[at + 3]
-        if op == 15:  # SAME
-            for j in range(many):
-                i = self.active[base + j]
-                self.fails[i] |= self.cells[a + i] != self.cells[b + i]
-        elif op == 16:  # NEAR
-            for j in range(many):
-                i = self.active[base + j]
-                if self.cells[a + i] != self.cells[b + i] and not self.is_near(self.cells[a + i], self.cells[b + i]):
-                    self.fails[i] = 1
+        amiss = 0
+        if op == 15 or op == 16:  # SAME, NEAR: mostly the very same numbers
+            for i in range(first, last):
+                amiss += self.cells[a + i] != self.cells[b + i]
+            if amiss:
+                for i in range(first, last):
+                    x, y = self.cells[a + i], self.cells[b + i]
+                    self.fails[i] |= x != y and (op == 15 or not self.is_near(x, y))
         elif op == 12:  # ALLOWED: value, table
             b = self.code[at + 3]
-            for j in range(many):
-                i = self.active[base + j]
-                if self.cells[a + i] != self.cells[a + i] or not self.tables[b + int(self.cells[a + i])]:
-                    self.fails[i] = 1
+            for i in range(first, last):
+                x = self.cells[a + i]
+                self.fails[i] |= x != x or not self.tables[b + int(x)]
         elif op == 13:  # WITHIN: value, first of two bounds
-            for j in range(many):
-                i = self.active[base + j]
-                self.fails[i] |= not (self.cells[b] <= self.cells[a + i] and self.cells[a + i] <= self.cells[b + BLOCK])
+            for i in range(first, last):
+                x = self.cells[a + i]
+                self.fails[i] |= not (self.cells[b] <= x and x <= self.cells[b + BLOCK])
         elif op == 14:  # AMONG: value, first, count of values
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 k = 0
                 while k < more and self.cells[b + BLOCK * k] != self.cells[a + i]:
                     k += 1
                 self.fails[i] |= k == more
         elif op == 17:  # OTHER: not the same
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 self.fails[i] |= not (self.cells[a + i] < self.cells[b + i] or self.cells[a + i] > self.cells[b + i])
         elif op == 18:  # APART: not near
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 x, y = self.cells[a + i], self.cells[b + i]
                 self.fails[i] |= x != x or y != y or self.is_near(x, y)
         elif op == 19:  # AT_MOST
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 self.fails[i] |= not self.cells[a + i] <= self.cells[b + i]
         elif op == 20:  # BELOW
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 self.fails[i] |= not self.cells[a + i] < self.cells[b + i]
         else:  # ALIKE: two truth values
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 x, y = self.cells[a + i], self.cells[b + i]
                 self.fails[i] |= x != x or y != y or (x != 0.0) != (y != 0.0)
         return 0
 
-    def compute(self, at: int, many: int, base: int) -> int:
+    def compute(self, at: int, first: int, last: int) -> int:
         """Compute the value of a function; a row fails where it has none, or a whole number is not exact."""
         op, more = self.code[at], self.code[at + 4]
         out, a, b = BLOCK * self.code[at + 1], BLOCK * self.code[at + 2], BLOCK * self.code[at + 3]
         if op == 30:  # ADD
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 self.cells[out + i] = self.cells[a + i] + self.cells[b + i]
         elif op == 31:  # SUBTRACT
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 self.cells[out + i] = self.cells[a + i] - self.cells[b + i]
         elif op == 32:  # MULTIPLY
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 self.cells[out + i] = self.cells[a + i] * self.cells[b + i]
         elif op == 40 or op == 41:  # FLOOR, CEILING: whether a real that is near to a whole number is left open
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 x = self.cells[a + i]
                 if not math.fabs(x) <= _EXACT:
                     self.fails[i] = 1
@@ -269,50 +237,73 @@ class RowEvaluator(RowBlock):
                 self.cells[out + i] = float(math.floor(x) if op == 40 else math.ceil(x))
         elif op == 42:  # DISTANCE of (a, b) and the next two
             c, d = BLOCK * more, BLOCK * self.code[at + 5]
-            for j in range(many):
-                i = self.active[base + j]
+            for i in range(first, last):
                 x, y = self.cells[c + i] - self.cells[a + i], self.cells[d + i] - self.cells[b + i]
                 self.cells[out + i] = math.sqrt(x * x + y * y)
             more = 0
         elif op == 43:  # TOWARDS
-            return self.point(at, many, base)
+            return self.point(at, first, last)
         else:
-            for j in range(many):
-                i = self.active[base + j]
-                x, y = self.cells[a + i], self.cells[b + i]
-                if x != x or y != y:
-                    x = _NAN
-                elif op == 33:  # LEAST
-                    x = x if x < y else y
-                elif op == 34:  # GREATEST
-                    x = x if x > y else y
-                elif op == 35:  # NEGATIVE
-                    x = -x
-                elif op == 36:  # SIZE
-                    x = math.fabs(x)
-                elif op == 37:  # ROOT
-                    x = math.sqrt(x if x > 0.0 else 0.0) if x > -1e-4 else _NAN
-                elif op == 38:  # REST
-                    x = math.fmod(x, y) if y != 0.0 and x - x == 0.0 else _NAN
-                else:  # SQUARE of the difference
-                    x = (x - y) * (x - y)
-                self.cells[out + i] = x
-        if more and op < 40:  # a whole number
-            for j in range(many):
-                i = self.active[base + j]
-                self.fails[i] |= not math.fabs(self.cells[out + i]) <= _EXACT
-        else:
-            for j in range(many):
-                i = self.active[base + j]
-                self.fails[i] |= self.cells[out + i] - self.cells[out + i] != 0.0
+            for i in range(first, last):
+                self.cells[out + i] = self.value(op, self.cells[a + i], self.cells[b + i])
+        most = _EXACT if more and op < 40 else _LARGEST  # of a whole number, of a real
+        amiss = 0
+        for i in range(first, last):
+            amiss += not math.fabs(self.cells[out + i]) <= most
+        if amiss:
+            for i in range(first, last):
+                self.fails[i] |= not math.fabs(self.cells[out + i]) <= most
         return 0
 
-    def point(self, at: int, many: int, base: int) -> int:
+    def value(self, op: int, x: float, y: float) -> float:
+        """The value of a function of which there are few; NaN where it has none."""
+        if x != x or y != y:
+            return _NAN
+        if op == 33:  # LEAST
+            return x if x < y else y
+        if op == 34:  # GREATEST
+            return x if x > y else y
+        if op == 35:  # NEGATIVE
+            return -x
+        if op == 36:  # SIZE
+            return math.fabs(x)
+        if op == 37:  # ROOT
+            return math.sqrt(x if x > 0.0 else 0.0) if x > -1e-4 else _NAN
+        if op == 38:  # REST
+            return math.fmod(x, y) if y != 0.0 and x - x == 0.0 else _NAN
+        return (x - y) * (x - y)  # SQUARE of the difference
+
+    def compare(self, at: int, first: int, last: int) -> int:
+        """Compute a truth value; a row fails where it is not known, or would be another within the tolerance."""
+        op, more = self.code[at], self.code[at + 4]
+        out, a, b = BLOCK * self.code[at + 1], BLOCK * self.code[at + 2], BLOCK * self.code[at + 3]
+        for i in range(first, last):
+            x, y = self.cells[a + i], self.cells[b + i]
+            z = _NAN
+            if x != x or y != y:
+                self.fails[i] = 1
+            elif op == 50:  # EQUAL
+                z = 1.0 if x == y or (not more and self.is_near(x, y)) else 0.0
+            elif op == 54:  # BOTH
+                z = 1.0 if x != 0.0 and y != 0.0 else 0.0
+            elif op == 55:  # EITHER
+                z = 1.0 if x != 0.0 or y != 0.0 else 0.0
+            elif op == 56:  # NEITHER: the negation, of one
+                z = 0.0 if x != 0.0 else 1.0
+            elif x == y:  # UNEQUAL, IS_AT_MOST, IS_BELOW
+                z = 1.0 if op == 52 else 0.0
+            elif not more and not (op == 52 and x < y) and self.is_near(x, y):
+                self.fails[i] = 1
+            else:
+                z = 1.0 if op == 51 or x < y else 0.0
+            self.cells[out + i] = z
+        return 0
+
+    def point(self, at: int, first: int, last: int) -> int:
         """Let the rows fail in which (ux, uy) is not plainly the unit vector from one point to another."""
         one, two, three = BLOCK * self.code[at + 1], BLOCK * self.code[at + 2], BLOCK * self.code[at + 3]
         four, five, six = BLOCK * self.code[at + 4], BLOCK * self.code[at + 5], BLOCK * self.code[at + 6]
-        for j in range(many):
-            i = self.active[base + j]
+        for i in range(first, last):
             x, y = self.cells[three + i], self.cells[four + i]
             to_x, to_y = self.cells[five + i], self.cells[six + i]
             east, north = to_x - x, to_y - y
