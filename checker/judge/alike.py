@@ -1,6 +1,6 @@
 """Tokens that are alike, out of a record: of one predicate, with the same rules fired.
 
-A record has its tokens one by one, or in columns (`runtime.executive.columns`); here both become columns of the judge.
+A record has them in columns (`runtime.executive.columns`); here these become columns of the judge.
 """
 
 from collections.abc import Iterator, Sequence
@@ -8,14 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from checker.judge.columns import FLOAT, INT, TEXT, Array, Column, Mask, Texts, column_of
+from checker.judge.columns import FLOAT, INT, TEXT, Array, Column, Mask, Texts
 from runtime.executive.columns import GuardColumns, RunColumns, TokenColumns, TokenGroup, ValueColumn
-from runtime.executive.record import BodyRun, GuardRun, TokenRecord
 
 _KINDS = {"float": FLOAT, "int": INT, "bool": INT, "name": TEXT}
 _BLOCK = 8192  # rows
-_Shape = tuple["_RunShape", ...]  # of all runs of a token
-_RunShape = tuple[int, int, int, int]  # rule, how many locals, children and guards
 
 
 class RunRows(NamedTuple):
@@ -45,52 +42,6 @@ class AlikeTokens(NamedTuple):
     predicate: str
     rows: Array
     runs: Sequence[RunRows]
-
-
-# ---- one by one ----
-
-
-def alike_tokens(tokens: Sequence[TokenRecord], texts: Texts, wanted: Mask, fewest: int) -> Iterator[AlikeTokens]:
-    """Of the `wanted` tokens those of which at least `fewest` are alike."""
-    found: dict[tuple[str, _Shape], list[int]] = {}
-    for row in np.flatnonzero(wanted).tolist():
-        one = tokens[row]
-        found.setdefault((one.predicate, tuple([_run_shape(run) for run in one.runs])), []).append(row)
-    for (predicate, shape), rows in found.items():
-        if len(rows) >= fewest:
-            runs = [_run_rows([tokens[row].runs[index] for row in rows], texts) for index in range(len(shape))]
-            yield AlikeTokens(predicate, np.array(rows), runs)
-
-
-def _run_shape(run: BodyRun) -> _RunShape:
-    return (run.rule, len(run.locals), len(run.children), len(run.guards))
-
-
-def _run_rows(runs: Sequence[BodyRun], texts: Texts) -> RunRows:
-    """Runs of one shape."""
-    return RunRows(
-        runs[0].rule,
-        [column_of(values, texts) for values in zip(*[run.locals for run in runs], strict=True)],
-        [np.array(keys, np.int64) for keys in zip(*[run.children for run in runs], strict=True)],
-        [_guard_rows(reached, texts) for reached in zip(*[run.guards for run in runs], strict=True)],
-    )
-
-
-def _guard_rows(reached: Sequence[GuardRun], texts: Texts) -> GuardRows:
-    """What a guard came to, row by row."""
-    found: dict[tuple[str, bool, _RunShape | None], list[int]] = {}
-    for row, each in enumerate(reached):
-        shape = None if each.run is None else _run_shape(each.run)
-        found.setdefault((each.branch, each.is_decided, shape), []).append(row)
-    parts = []
-    for (branch, is_decided, _), rows in found.items():
-        inner = [run for row in rows if (run := reached[row].run) is not None]
-        which = None if len(found) == 1 else np.array(rows)
-        parts.append(BranchRows(branch, is_decided, which, _run_rows(inner, texts) if inner else None))
-    return parts
-
-
-# ---- in columns ----
 
 
 class SymbolNumbers:

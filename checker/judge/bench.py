@@ -50,7 +50,7 @@ class _Toks:
     def __init__(self, tokens: Sequence[TokenRecord]) -> None:
         self._tokens = tokens
         self._keys: Array | None = tokens.times.keys if isinstance(tokens, TokenColumns) else None  # in order
-        self._indices = {} if self._keys is not None else {one.key: index for index, one in enumerate(tokens)}
+        self.by_key = {} if self._keys is not None else {one.key: one for one in tokens}  # those listed one by one
         self._on: dict[Value, list[TokenRecord]] | None = None  # by object
         self._made: dict[int, Tok] = {}
 
@@ -64,14 +64,13 @@ class _Toks:
 
     def _record(self, key: int) -> TokenRecord | None:
         if self._keys is None:
-            index = self._indices.get(key)
-            return None if index is None else self._tokens[index]
+            return self.by_key.get(key)
         found = int(self._keys.searchsorted(key))
         return self._tokens[found] if found < len(self._keys) and self._keys[found] == key else None
 
     def records(self) -> Iterator[TokenRecord]:
         """What is on record of all tokens; of several with one key the last."""
-        return iter(self._tokens) if self._keys is not None else map(self._tokens.__getitem__, self._indices.values())
+        return iter(self._tokens if self._keys is not None else self.by_key.values())
 
     def named(self, predicate: str) -> Iterator[TokenRecord]:
         """What is on record of the tokens of all predicates of a short name."""
@@ -185,14 +184,14 @@ class Bench:
         return starts is not None and starts[1] < self.last_tick
 
 
-def lasting(tok: Tok) -> Value:
+def _lasting(tok: Tok) -> Value:
     """How long a token lasts, from its times."""
     return difference(tok.values[4], tok.values[3])
 
 
 def duration_of(tok: Tok) -> Value:
     """The duration of a token: from its times where these are fixed, else as it is on record."""
-    length = lasting(tok)
+    length = _lasting(tok)
     return tok.values[2] if is_open(length) and not is_open(tok.values[2]) else length
 
 

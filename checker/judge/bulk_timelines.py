@@ -10,7 +10,7 @@ from checker.judge.bench import Bench
 from checker.judge.columns import TEXT, Array, Column, distinct
 from checker.judge.tables import Tables
 from compiler.program import END, OBJECT, START, PredicateCode
-from runtime.executive.columns import PublishedColumns, TokenColumns
+from runtime.executive.columns import PublishedColumns, StoredValues, table_of
 from runtime.executive.event_parts import EventColumns
 from runtime.executive.outcome import Event
 from runtime.executive.record import TokenRecord, Value
@@ -46,7 +46,7 @@ def count_held(
     codes: Mapping[str, PredicateCode],
     observed: set[int] | None,
 ) -> int:
-    """How many publications agree with few active tokens of a timeline; -1 if not all plainly do, one per token.
+    """How many publications agree with the active tokens of a timeline; -1 if not all plainly do, one per token.
 
     `observed` are the ticks at which a reactor took note of something, None on its own timelines.
     """
@@ -63,22 +63,32 @@ def count_held(
             told.add(event.tick)
             count += 1
     for _, each in published.columns:
-        values, kinds = each.arguments.store, each.arguments.kinds
-        for tick, first in zip(each.ticks.tolist(), each.arguments.first.tolist(), strict=True):
-            if tick > last_tick:
-                continue
+        rows = np.flatnonzero(each.ticks <= last_tick)
+        arguments = each.arguments._replace(first=each.arguments.first.take(rows))
+        fitting: set[str] = set()  # predicates that have the parameters that were published
+        for tick, given in zip(each.ticks.take(rows).tolist(), _listed(arguments, each.symbols), strict=True):
             held = begun.get(tick)
-            if held is None or held.predicate.rpartition(".")[2] != each.predicate:
+            if held is None or held.arguments != given:
                 return -1
-            if each.parameters != tuple([one.name for one in codes[held.predicate].parameters]):
-                return -1
-            given = values[first : first + len(kinds)].tolist()
-            for mine, kind, number in zip(held.arguments, kinds, given, strict=True):
-                if mine != (number if kind in _NUMBERS or number != number else each.symbols[int(number)]):
+            if held.predicate not in fitting:
+                names = tuple([one.name for one in codes[held.predicate].parameters])
+                if held.predicate.rpartition(".")[2] != each.predicate or each.parameters != names:
                     return -1
+                fitting.add(held.predicate)
             told.add(tick)
-            count += 1
+        count += len(rows)
     return count if count == len(told) == len(begun) else -1
+
+
+def _listed(arguments: StoredValues, symbols: Sequence[str]) -> list[tuple[Value, ...]]:
+    """Arguments row by row; what was left open is not a number, and equals nothing."""
+    table = table_of(arguments.store, arguments.first, range(len(arguments.kinds))).T.tolist()
+    names = [k for k, kind in enumerate(arguments.kinds) if kind not in _NUMBERS]
+    for row in table:
+        for k in names:
+            if row[k] == row[k]:
+                row[k] = symbols[int(row[k])]
+    return list(map(tuple, table))
 
 
 class BulkTimelines:
@@ -197,7 +207,7 @@ class BulkTimelines:
         """Whether tokens plainly have the arguments that were published."""
         tables, given = self.tables, published.arguments
         arguments = tables.arguments
-        if isinstance(tables.tokens, TokenColumns) and _is_same_store(tables.tokens.store, given.store):
+        if _is_same_store(tables.tokens.store, given.store):
             if np.array_equal(tables.tokens.times.values.take(rows), given.first.take(told)):
                 return True  # they are the same numbers
         numbers, own = SymbolNumbers(published.symbols, tables.texts), arguments(kind, rows)

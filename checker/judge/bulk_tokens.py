@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from checker.judge.alike import AlikeTokens, alike_columns, alike_tokens
+from checker.judge.alike import AlikeTokens, alike_columns
 from checker.judge.bench import Bench
 from checker.judge.bodies import Written
 from checker.judge.bulk_frame import RowFrame, RowStep, RowTally, UnplainError
@@ -20,7 +20,6 @@ from checker.judge.row_judge import RowJudge
 from checker.judge.steps import Domain, domain_test
 from checker.judge.tables import RowTokens, Tables
 from compiler.program import END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
-from runtime.executive.columns import TokenColumns
 from runtime.executive.record import TokenRecord
 
 _FEWEST = 12  # tokens that are alike, for which a group is worth its cost
@@ -100,11 +99,9 @@ def judge_in_bulk(judge: BulkJudge, bench: Bench, tables: Tables) -> Iterator[To
 
 
 def _groups(judge: BulkJudge, bench: Bench, tables: Tables, wanted: Mask, done: Mask) -> Iterator[AlikeTokens]:
-    """The groups that are judged on arrays; what was recorded in columns is judged row by row where there is code."""
-    if isinstance(tables.tokens, TokenColumns):
-        left = judge.rows.judge(bench, tables, tables.tokens, wanted, done)
-        return alike_columns(left, tables.tokens, tables.texts, wanted, _FEWEST)
-    return alike_tokens(tables.tokens, tables.texts, wanted, _FEWEST)
+    """The groups that are judged on arrays, which have no code for rows."""
+    left = judge.rows.judge(bench, tables, tables.tokens, wanted, done)
+    return alike_columns(left, tables.tokens, tables.texts, wanted, _FEWEST)
 
 
 def _judge_merged(bench: Bench, tables: Tables, done: Array) -> None:
@@ -119,11 +116,6 @@ def _judge_merged(bench: Bench, tables: Tables, done: Array) -> None:
         alike &= mine.lower == theirs.lower
         if mine.upper is not None and theirs.upper is not None:
             alike &= mine.upper == theirs.upper
-    if not isinstance(tables.tokens, TokenColumns):  # there they have no arguments of their own
-        alike[alike] = [
-            tables.tokens[row].arguments == tables.tokens[other].arguments
-            for row, other in zip(rows[alike].tolist(), others[alike].tolist(), strict=True)
-        ]
     done[rows[alike]] = True
     bench.judged += int(np.count_nonzero(alike))
 
@@ -141,7 +133,7 @@ def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, group: AlikeTok
     frame = RowFrame(bench, tok, [None] * code.body_slots, [tok, *[None] * code.body_tokens])
     frame.tally = tally
     try:
-        _judge_own(known, frame, tables, rows)
+        _judge_own(known, frame)
         for step in known.body:
             step(frame)
         if code.rules:
@@ -161,20 +153,15 @@ def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, group: AlikeTok
     return tally.holds
 
 
-def _judge_own(known: _PredicateRows, frame: RowFrame, tables: Tables, rows: Array) -> None:
+def _judge_own(known: _PredicateRows, frame: RowFrame) -> None:
     """The times, the parameters and the object of tokens."""
     tally = frame.tally
     start, end = (frame.use(frame.tok.column(each)) for each in (START, END))
-    duration = tables.duration(rows)
-    if duration is None:
-        length = end.lower - start.lower
-    else:
-        length = frame.use(duration).lower
-        tally.need(length == end.lower - start.lower)
-    for each in (start, end, duration):
-        if each is not None and each.kind != INT:
+    length = end.lower - start.lower
+    for each in (start, end):
+        if each.kind != INT:
             raise UnplainError
-        if each is not None and each.open is not None:
+        if each.open is not None:
             tally.need(~each.open)
     tally.judge(length >= (0 if known.code.is_event else 1))
     for index, test in known.tests:

@@ -22,6 +22,7 @@ from checker.judge.tokens import ProgramJudge, compile_program, judge_tokens
 from checker.judge.values import UNKNOWN
 from checker.judge.written import meanings_of
 from compiler.program import Program
+from runtime.executive.columns import TokenColumns
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.events import EventLog, single_events
 from runtime.executive.outcome import Event, EventKind, Outcome, Phase, Reason, ReasonKind
@@ -63,7 +64,7 @@ def judge_mission(
         written = by_name.get(configuration.name)
         if written is None:
             continue
-        tables = Tables(written) if len(written.tokens) >= _FEWEST else None
+        tables = Tables(written.tokens) if isinstance(written.tokens, TokenColumns) else None
         judge = _judge_of(program, constraints)
         bench = Bench(written, agent.final_tick, chance.draws, configuration.name in failed)
         bench.last_repair = repaired.get(configuration.name, -1)

@@ -1,17 +1,15 @@
-"""Tables of a record: keys, times and arguments of all tokens of a reactor as columns, read row by row of a group.
+"""Tables of a record in columns: keys, times and arguments of all tokens of a reactor, read row by row of a group.
 
 They are read for what is judged of many tokens at once; what else the judge asks of a record it asks token by token.
 """
 
-from collections.abc import Callable, Sequence
-
 import numpy as np
 
 from checker.judge.alike import SymbolNumbers
-from checker.judge.columns import INT, TEXT, Array, Column, Mask, Texts, column_of, distinct, joined
+from checker.judge.columns import INT, TEXT, Array, Column, Mask, Texts, distinct, joined
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START
 from runtime.executive.columns import ORIGINS, TokenColumns, has_nan, table_of, value_column
-from runtime.executive.record import NOBODY, ReactorRecord, TokenRecord
+from runtime.executive.record import NOBODY
 
 _SPARSE = 4
 _LONG = 8  # rows on end, for which one reading is worth the search for them
@@ -84,58 +82,13 @@ def _no_column(count: int) -> Column:
     return Column(TEXT, np.zeros(count, np.int64), None, np.ones(count, bool))
 
 
-class _Listed:
-    """The arguments of tokens that are on record one by one: of each predicate a table, read when first asked for."""
-
-    def __init__(self, tokens: Sequence[TokenRecord], predicates: Array, texts: Texts) -> None:
-        self.tokens = tokens
-        self.predicates = predicates  # NOBODY of those for which others stand
-        self.texts = texts
-        self.indices: Array = np.zeros(len(tokens), np.int64)  # of each token in the table of its predicate
-        self.read: dict[int, list[Column]] = {}
-
-    def of(self, predicate: int, rows: Array) -> "_Picked":
-        """The arguments of tokens of one predicate."""
-        known = self.read.get(predicate)
-        if known is None:
-            own = np.flatnonzero(self.predicates == predicate)
-            self.indices[own] = np.arange(len(own))
-            given = [self.tokens[row].arguments for row in own.tolist()]
-            known = self.read[predicate] = [column_of(each, self.texts) for each in zip(*given, strict=False)]
-        return _Picked(known, self.indices.take(rows))
-
-
-class _Picked:
-    """Rows of some columns, mostly such as stand one after the other."""
-
-    def __init__(self, columns: list[Column], indices: Array) -> None:
-        self.columns = columns
-        self.indices = indices
-        is_run = len(indices) > 1 and bool((np.diff(indices) == 1).all())
-        self.first = int(indices[0]) if is_run else NOBODY
-
-    def column(self, number: int) -> Column:
-        """An argument, by the number of its parameter; bad where there is none."""
-        count = len(self.indices)
-        if not 0 <= number < len(self.columns):
-            return _no_column(count)
-        column = self.columns[number]
-        return column.take(self.indices) if self.first == NOBODY else column.part(self.first, self.first + count)
-
-
-_Reader = Callable[[int, Array], _Stored | _Picked]  # the arguments of tokens of one predicate
-
-
 class Tables:
     """All tokens of a reactor; a row is an index in the record."""
 
-    def __init__(self, record: ReactorRecord) -> None:
+    def __init__(self, tokens: TokenColumns) -> None:
         self.texts = Texts()
-        self.tokens = record.tokens
-        if isinstance(record.tokens, TokenColumns):
-            self._take(record.tokens)
-        else:
-            self._read(record.tokens)
+        self.tokens = tokens
+        self._take(tokens)
         self.count = len(self.keys)
         self.is_planned = self.is_active | self.is_merged
         self.has_cut = bool(self.is_cut.any())
@@ -145,35 +98,10 @@ class Tables:
             self.row_of = np.full(int(self.keys[-1]) + 1, NOBODY)
             self.row_of[self.keys] = np.arange(self.count)
         self.standing = self._standing()
-        if isinstance(record.tokens, TokenColumns):
-            self.arguments: _Reader = _StoredReader(record.tokens, self.texts).of
-        else:
-            own = np.where(self.standing == np.arange(self.count), self.predicate, NOBODY)
-            self.arguments = _Listed(record.tokens, own, self.texts).of
-
-    def _read(self, tokens: Sequence[TokenRecord]) -> None:
-        """Read tokens one by one."""
-        fields = tuple(zip(*tokens, strict=True)) or ((),) * len(TokenRecord._fields)
-        keys, predicates, objects, states, durations, starts, ends, _, merged, origins, fates, ticks, _ = fields
-        self.keys: Array = np.array(keys, np.int64)
-        self.predicates: list[str] = list(dict.fromkeys(predicates))
-        numbers = {name: k for k, name in enumerate(self.predicates)}
-        self.predicate: Array = np.array([numbers[each] for each in predicates], np.int64)
-        self.is_active: Mask = np.array([each == "active" for each in states], bool)
-        self.is_merged: Mask = np.array([each == "merged" for each in states], bool)
-        self.is_cut: Mask = np.array([each == "cut" for each in fates], bool)
-        self.is_observed: Mask = np.array([each == "observation" for each in origins], bool)
-        self.ticks: Array = np.array(ticks, np.int64)
-        self.merged_into: Array = np.array(merged, np.int64)
-        self.times: dict[int, Column] = {
-            OBJECT: column_of(objects, self.texts),
-            DURATION: column_of(durations, self.texts),
-            START: column_of(starts, self.texts),
-            END: column_of(ends, self.texts),
-        }
+        self.arguments = _StoredReader(tokens, self.texts).of
 
     def _take(self, tokens: TokenColumns) -> None:
-        """Take tokens that were recorded in columns; what is inactive has no times yet."""
+        """Take the columns; what is inactive has no times yet."""
         for symbol in tokens.symbols:
             self.texts.number(symbol)
         times, names = tokens.times, np.array([self.texts.number(name) for name in tokens.names], np.int64)
@@ -188,10 +116,6 @@ class Tables:
             START: Column(INT, times.starts, None if begun.all() else np.where(begun, times.starts, np.inf)),
             END: Column(INT, times.ends, None if (times.ends == times.latest).all() else times.latest),
         }
-
-    def duration(self, rows: Array) -> Column | None:
-        """How long tokens last as it is on record; None where a record has no durations of its own."""
-        return self.times[DURATION].take(rows) if DURATION in self.times else None
 
     def rows_of(self, keys: Array) -> Array:
         """The rows of tokens by their keys; NOBODY where there is none."""
@@ -235,7 +159,7 @@ class RowTokens:
         self._rows: Array | None = part if whole is None else rows
         self._standing: Array | None = None
         self._columns: dict[int, Column] = {}
-        self._arguments: list[tuple[Mask, _Stored | _Picked]] | None = None
+        self._arguments: list[tuple[Mask, _Stored]] | None = None
 
     @staticmethod
     def children(tables: Tables, rows: Array) -> "RowTokens":
@@ -290,7 +214,7 @@ class RowTokens:
             return self._arguments[0][1].column(number)
         return joined([(rows, each.column(number)) for rows, each in self._arguments], len(self))
 
-    def _sort(self) -> list[tuple[Mask, _Stored | _Picked]]:
+    def _sort(self) -> list[tuple[Mask, _Stored]]:
         """The arguments by predicate, with the rows of each."""
         kinds, indices = distinct(self.tables.predicate.take(self.standing))
         if len(kinds) == 1:

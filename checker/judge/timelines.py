@@ -3,8 +3,9 @@
 from math import inf
 
 from checker.judge.bench import Bench, Tok
-from checker.judge.bulk_timelines import BulkTimelines, History, Publications, count_held
+from checker.judge.bulk_timelines import BulkTimelines, History, Publications
 from checker.judge.operands import domain_value
+from checker.judge.plain_timelines import PlainTimelines
 from checker.judge.tables import Tables
 from checker.judge.tokens import ProgramJudge
 from checker.judge.values import hull, may_be_equal
@@ -61,15 +62,13 @@ def judge_timelines(
     internal: tuple[str, ...],
     external: tuple[str, ...],
 ) -> None:
-    """Judge all timelines of a reactor; those that plainly are right at once, if there are tables."""
+    """Judge all timelines of a reactor; those that plainly are right at once."""
     shared = (*internal, *external)
     past = {line: history.get(line, Publications()) for line in shared}
-    in_order, told, left = set[str](), set[str](), {*bench.members, *shared}
-    if tables is not None:
-        bulk = BulkTimelines(bench, tables, judge.timelines)
-        in_order = {timeline for timeline in bulk.rows if bulk.is_in_order(timeline, timeline in shared)}
-        told = {line for line in shared if bulk.is_told(line, past[line], judge.codes, line in internal)}
-        left = {*(set(bulk.rows) - in_order), *(set(shared) - told)}
+    bulk = PlainTimelines(bench, judge.timelines) if tables is None else BulkTimelines(bench, tables, judge.timelines)
+    in_order = {timeline for timeline in bulk.rows if bulk.is_in_order(timeline, timeline in shared)}
+    told = {line for line in shared if bulk.is_told(line, past[line], judge.codes, line in internal)}
+    left = {*(set(bulk.rows) - in_order), *(set(shared) - told)}
     if not left:
         return
     found = _sequences(judge, bench, left)
@@ -79,12 +78,6 @@ def judge_timelines(
     for timeline in shared:
         if timeline not in told:
             tokens = found.get(timeline, [])
-            records = [tok.record for tok in tokens]
-            seen = None if timeline in internal else _observed(bench, timeline)
-            count = count_held(records, past[timeline], bench.last_tick, judge.codes, seen)
-            if count >= 0:
-                bench.judged += count
-                continue
             published = past[timeline].events(bench.last_tick)
             _judge_observations(judge, bench, timeline, tokens, published, timeline in internal)
 

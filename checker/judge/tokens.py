@@ -1,9 +1,10 @@
 """Judge tokens: their own variables, the body of their predicate, the rules that fired, and merged twins."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from checker.judge.bench import Bench, RuleUse, Tok, lasting
+from checker.judge.bench import Bench, RuleUse, Tok
 from checker.judge.bodies import Written
 from checker.judge.bulk_tokens import BulkJudge, judge_in_bulk
 from checker.judge.choosing import MOST_TRIES, Choosing
@@ -11,13 +12,13 @@ from checker.judge.operands import BUILT_IN, BodyFrame, VariableNames
 from checker.judge.relating import Step
 from checker.judge.report import Disagreement
 from checker.judge.steps import Domain, compile_steps, domain_test
+from checker.judge.straight_code import lasts_rightly
+from checker.judge.straight_judge import StraightJudge
 from checker.judge.tables import Tables
-from checker.judge.values import UNKNOWN, ends_of, is_open, lies_within, may_be_equal
+from checker.judge.values import UNKNOWN, ends_of, is_open, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
 from nddl_lang.text.source import Span
-from runtime.executive.record import BodyRun, Value
-
-_LONGEST = float("inf")
+from runtime.executive.record import BodyRun, TokenRecord, Value
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -53,6 +54,7 @@ class ProgramJudge:
     globals: tuple[tuple[int, str, Domain], ...]
     timelines: frozenset[str]  # classes whose objects hold one token at a time
     bulk: BulkJudge
+    straight: StraightJudge
 
     @property
     def codes(self) -> dict[str, PredicateCode]:
@@ -73,7 +75,8 @@ def compile_program(program: Program, written: Written) -> ProgramJudge:
             worlds.append((k, name, test))
     timelines = frozenset(code.name for code in program.classes if code.native == "Timeline")
     bulk = BulkJudge(program, written, names.predicates)
-    return ProgramJudge(program, names, predicates, rules, script, tuple(worlds), timelines, bulk)
+    straight = StraightJudge(program, written, names.predicates)
+    return ProgramJudge(program, names, predicates, rules, script, tuple(worlds), timelines, bulk, straight)
 
 
 def _predicate(code: PredicateCode, program: Program, written: Written) -> PredicateJudge:
@@ -97,7 +100,11 @@ def _rule(rule: RuleCode, program: Program, written: Written) -> RuleJudge:
 def judge_tokens(judge: ProgramJudge, bench: Bench, tables: Tables | None) -> None:
     """Judge every token that has begun; those that are alike at once, if there are tables."""
     last = bench.last_tick
-    left = bench.record.tokens if tables is None else judge_in_bulk(judge.bulk, bench, tables)
+    left: Iterable[TokenRecord]
+    if isinstance(bench.record.tokens, tuple) and not bench.infers:
+        left = judge.straight.judge(bench, bench.record.tokens)
+    else:
+        left = bench.record.tokens if tables is None else judge_in_bulk(judge.bulk, bench, tables)
     for tok in bench.tokens.of(left):
         record = tok.record
         state = record.state
@@ -209,9 +216,7 @@ def _judge_times(bench: Bench, tok: Tok, least: int, span: Span | None) -> None:
     if isinstance(record.end, int) and isinstance(record.start, int):
         if record.duration == record.end - record.start and record.duration >= least:
             return
-    length = lasting(tok)
-    is_known = isinstance(record.duration, int) or not isinstance(length, int)
-    if not (is_known and lies_within(length, least, _LONGEST) and may_be_equal(record.duration, length)):
+    if not lasts_rightly(record, least):
         values = (("start", record.start), ("duration", record.duration), ("end", record.end))
         bench.report("duration", "duration", (tok,), values, "start + duration = end", "it is not", span)
 

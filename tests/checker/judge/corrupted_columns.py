@@ -13,7 +13,6 @@ from typing import NamedTuple
 import pytest
 
 import runtime.build_form
-from checker.judge import judge
 from checker.judge.judge import judge_mission
 from checker.judge.report import JudgeReport
 from checker.mission import read_mission
@@ -28,6 +27,7 @@ from runtime.executive.mission import record_mission
 from runtime.executive.outcome import Outcome
 from runtime.executive.record import MissionRecord, TokenRecord
 from tests.checker.judge.missions import GPS, INL
+from tests.checker.judge.test_bulk import one_at_a_time
 from tests.programs import programs_of
 
 FILES = (INL, INL.parents[1] / "front/mission.toml", GPS)
@@ -112,7 +112,7 @@ def compare(flown: Flight, dice: Random) -> tuple[str, bool, bool]:
         kind = corrupt(expansion, dice)
         quick = flown.report(expansion.columns())
         with pytest.MonkeyPatch.context() as patched:
-            patched.setattr(judge, "_FEWEST", 10**9)
+            one_at_a_time(patched)
             single = flown.report(tuple(expansion.columns()))
     finally:
         for index, value in enumerate(kept[0]):

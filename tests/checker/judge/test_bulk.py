@@ -15,7 +15,9 @@ from checker.judge.functions import COMPUTED
 from checker.judge.functions import conforms as conforms_one
 from checker.judge.judge import judge_mission
 from checker.judge.meanings import MEANINGS, TESTS
+from checker.judge.plain_timelines import PlainTimelines
 from checker.judge.report import JudgeReport
+from checker.judge.straight_judge import StraightJudge
 from runtime.executive.columns import TokenColumns
 from runtime.executive.mission import record_mission
 from runtime.executive.record import MissionRecord, OpenValues, TokenRecord, Value, ValueRange
@@ -27,8 +29,16 @@ from tests.executive.flying import Flown
 def one_by_one(mission: Flown) -> JudgeReport:
     """The report of the judge of single tokens alone."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(judge, "_FEWEST", 10**9)
+        one_at_a_time(patched)
         return again(mission)
+
+
+def one_at_a_time(patched: pytest.MonkeyPatch) -> None:
+    """Leave everything to the judge of single tokens."""
+    patched.setattr(judge, "_FEWEST", 10**9)
+    patched.setattr(StraightJudge, "judge", lambda self, bench, tokens: list(tokens))
+    for asked in ("is_in_order", "is_told"):
+        patched.setattr(PlainTimelines, asked, lambda *given: False)
 
 
 @pytest.mark.parametrize("name", MISSIONS)
