@@ -197,6 +197,7 @@ agents: build
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS)
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich
+	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich --deep
 
 renames: build
 	NDDLC_RENAMES=all $(PYTEST) tests/lsp/test_rename_everything.py

@@ -13,6 +13,8 @@ class RealTimeClock(FastClock):
     `told` hears of each tick in which somebody has something to do.
     """
 
+    is_metered = True
+
     def __init__(
         self,
         period: float,

@@ -48,6 +48,8 @@ class Agent:
         self.reactors = in_order(reactors)
         self.places = {reactor: place for place, reactor in enumerate(self.reactors)}
         tell_owners(self.reactors)
+        for reactor in self.reactors:
+            reactor.is_metered = self.clock.is_metered
         self.ahead = [reactor for reactor in self.reactors if reactor.runs_ahead]
         if self.ahead == self.reactors[:1]:
             self.ahead = []  # nothing comes between what it has carried out already and what it does now

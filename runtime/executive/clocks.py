@@ -16,6 +16,8 @@ class FastClock:
     has nothing to decide takes none.
     """
 
+    is_metered = False  # whether it may end a tick before nobody has work left
+
     def __init__(self) -> None:
         self.tick = 0
         self.counts: dict[int, int] = {}
@@ -36,6 +38,8 @@ class FastClock:
 class StepClock(FastClock):
     """The step clock: so many steps a tick and no more."""
 
+    is_metered = True
+
     def __init__(self, steps: int) -> None:
         super().__init__()
         self.steps = steps
@@ -50,6 +54,8 @@ class LogClock(FastClock):
 
     After the last tick of the log it is fast.
     """
+
+    is_metered = True
 
     def __init__(self, counts: Mapping[int, int]) -> None:
         super().__init__()

@@ -92,6 +92,8 @@ class Draws:
         self.world = world
         self.view: PlanView | None = None
         self.open: list[_Drawn] = []
+        self.is_reactive = False  # nothing is planned behind what has not begun: it is drawn for as it begins
+        self.begins: dict[int, int] = {}  # when those begin that are drawn for anew: meanwhile they have no place
 
     def draw(self, name: str, token: int) -> float | None:
         """What the plan database asks: the value of a parameter for a token (NOTHING: for the script)."""
@@ -109,14 +111,17 @@ class Draws:
         """When a token begins, as far as is known: what has not begun does so now, or next if now is synchronised."""
         assert self.view is not None
         start = self.view.start(token)
-        earliest = self.view.lower(start)
+        earliest = max(self.view.lower(start), self.begins.get(token, 0))
         is_synchronised = self.world.trace.phase in (Phase.DELIBERATE, Phase.DISPATCH)
         next_tick = self.world.trace.tick + is_synchronised
         return int(max(earliest, 0 if self.view.upper(start) < next_tick else next_tick))
 
     def outdated(self, view: PlanView, tick: int) -> list[int]:
-        """Tokens that have not begun by `tick` and hold a value that is no longer, or not yet, in force then."""
-        found: dict[int, None] = {}
+        """Tokens that have not begun by `tick` and hold a value that is no longer, or not yet, in force then.
+
+        Until `begins` is emptied, what is drawn for them is what is in force when they begin.
+        """
+        found: dict[int, int] = {}
         left = []
         for each in self.open:
             if not view.is_alive(each.token, each.key) or view.predicate_of(each.token) != each.predicate:
@@ -124,11 +129,12 @@ class Draws:
             if not view.is_active(each.token) or view.is_started(each.token, tick - 1):
                 continue
             begin = max(int(view.lower(view.start(each.token))), tick)
-            if update_index(self.world.parameters[each.parameter], begin) != each.index:
-                found[each.token] = None
+            is_outdated = update_index(self.world.parameters[each.parameter], begin) != each.index
+            if is_outdated and not (self.is_reactive and begin > tick):
+                found[each.token] = begin
             elif each.token not in found:
                 left.append(each)
-        self.open = left
+        self.open, self.begins = left, found
         return list(found)
 
     def next_change(self, view: PlanView, tick: int) -> float:
@@ -142,5 +148,6 @@ class Draws:
                 parameter = self.world.parameters[each.parameter]
                 begin = max(int(view.lower(view.start(each.token))), tick + 1)
                 is_moved = update_index(parameter, begin) != each.index
-                times.append(tick + 1 if is_moved else (each.index + 1) * parameter.update)
+                soonest = begin if self.is_reactive else tick + 1
+                times.append(soonest if is_moved else (each.index + 1) * parameter.update)
         return min(times)

@@ -190,6 +190,8 @@ class Goals:
         """Tell once of each goal that the planner found no place for; it may come back when there is room."""
         for goal in self.live():
             is_rejected = self.bench.is_alive(goal.token, goal.token_key) and self.bench.is_rejected(goal.token)
+            if is_rejected and goal.request.number in self.to_recall:
+                continue  # who takes it back knows
             if is_rejected and not goal.is_rejected:
                 goal.is_rejected = True
                 self._give_up(goal.request, ReasonKind.REJECTED, tick, self.rejections.pop(goal.token, None))

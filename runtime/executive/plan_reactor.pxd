@@ -35,8 +35,8 @@ cdef class PlanReactor(TeleoReactor):
     cpdef object notify(self, observation)
 
     @cython.locals(
-        bench=Workbench, earliest=double, first="long long", is_due=bint, line=TimelineState, soonest=double,
-        token="long long",
+        bench=Workbench, earliest=double, first="long long", is_due=bint, is_metered=bint, line=TimelineState,
+        soonest=double, token="long long",
     )
     cpdef long long next_tick(self, long long tick) except? -1
 
@@ -86,6 +86,3 @@ cdef class PlanReactor(TeleoReactor):
     cpdef list recalls(self)
 
     cpdef tuple _causes_of(self, TimelineState line)
-
-
-cpdef tuple _distinct(first, list failures)

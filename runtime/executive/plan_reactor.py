@@ -11,7 +11,7 @@ from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, ElementKind, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
 from runtime.executive.past import Past
 from runtime.executive.planning import EPISODE_DONE, EPISODE_MOVED, EPISODE_TOO_DEEP, Planner
-from runtime.executive.reactor import Failure, Refusal, SyncFailure, TeleoReactor, Watched
+from runtime.executive.reactor import Failure, Refusal, SyncFailure, TeleoReactor, Watched, conflicts_beside
 from runtime.executive.record import ReactorRecord
 from runtime.executive.repair import relax
 from runtime.executive.story import conflict_of, latest
@@ -71,7 +71,7 @@ class PlanReactor(TeleoReactor):
         """Take note of when owners want to be asked; its own window counts what they need (T-REX 1.1)."""
         self.dispatch.owner_windows = windows
         self.reach = execution_latency + max(self.lookahead, 1)
-        self.planner.window.is_reactive = self.lookahead <= 1
+        self.planner.window.is_reactive = self.draws.is_reactive = self.lookahead <= 1
 
     # ---- the tick ----
 
@@ -130,7 +130,9 @@ class PlanReactor(TeleoReactor):
                 soonest = min(soonest, self.dispatch.next_due(line, tick))
         for token in bench.undecided():
             soonest = min(soonest, bench.upper(bench.start(token)))
-        for token in bench.undecided() + bench.unordered():
+        # Where steps are counted it counts when each variable of a token is decided, too.
+        is_metered = self.is_metered or self.max_steps is not None
+        for token in bench.all_tokens() if is_metered else bench.undecided() + bench.unordered():
             earliest = bench.lower(bench.start(token))
             if earliest > tick + self.reach:
                 soonest = min(soonest, earliest - self.reach)
@@ -180,7 +182,7 @@ class PlanReactor(TeleoReactor):
                 self.goals.note_failed_starts(self.dispatch.answered())
         self.bench.recorder.is_lost = True
         first = failures[0]
-        repairs = _distinct(first.conflict, failures[1:])
+        repairs = conflicts_beside(first.conflict, failures[1:])
         lines = first.timelines or tuple([line.name for line in self.timelines if line.is_internal])
         refusals = self.dispatch.refusals() if first.code == "F6" else ()
         causes = refusals or causes or events[:1]
@@ -192,7 +194,9 @@ class PlanReactor(TeleoReactor):
         """Draw anew what was drawn for a tick at which its token does not begin."""
         for token in self.draws.outdated(self.bench, tick):
             if not self.bench.renew(token):
+                self.draws.begins = {}
                 return SyncFailure("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))
+        self.draws.begins = {}
         return None
 
     def _synchronise(self, tick: int) -> SyncFailure | None:
@@ -302,15 +306,17 @@ class PlanReactor(TeleoReactor):
         """Make one decision; whether there is more to do."""
         if self.broken is not None:
             return False
+        if self.is_out_of_steps():
+            self.planner.pause()
         if self.planner.is_fresh:
             self.goals.take_in(tick, tick + self.reach)
         if self.is_out_of_steps():
-            self.planner.pause()
             return False
         self.steps_made += 1
         outcome = self.planner.deliberate(tick, min(tick + self.reach, self.final_tick))
+        if outcome != EPISODE_DONE:
+            self.decisions_made += 1  # that nothing is left to decide for is a step, too
         if outcome == EPISODE_MOVED:
-            self.decisions_made += 1
             return True
         if outcome == EPISODE_DONE:
             self._rest(tick)
@@ -388,12 +394,3 @@ class PlanReactor(TeleoReactor):
         if answered:
             return tuple([goal.request.event for goal in answered])
         return (line.event,) if line.event != NOTHING else ()
-
-
-def _distinct(first: Conflict | None, failures: list[SyncFailure]) -> tuple[Conflict, ...]:
-    """The conflicts of later attempts that differ from the first."""
-    found: list[Conflict] = []
-    for failure in failures:
-        if failure.conflict is not None and failure.conflict != first and failure.conflict not in found:
-            found.append(failure.conflict)
-    return tuple(found)

@@ -7,7 +7,7 @@ cdef class TeleoReactor:
     cdef public str name
     cdef public tuple internal, external
     cdef public long long latency, lookahead, due, missed, decisions_made
-    cdef public bint runs_ahead
+    cdef public bint is_metered, runs_ahead
 
     cpdef long long untold(self) except? -1
 

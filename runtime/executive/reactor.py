@@ -73,6 +73,7 @@ class TeleoReactor:
         self.due = 0  # the next tick at which it has something to do; earlier ones cost nothing
         self.missed = _NEVER  # the tick in which the mission ended before its turn came
         self.decisions_made = 0  # in this tick
+        self.is_metered = False  # whether the clock grants so many steps a tick
         self.runs_ahead = False  # whether it carries out ticks before the agent comes to them; then it is never asleep
 
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
@@ -154,3 +155,12 @@ class TeleoReactor:
     def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
         """The name of the end of one of its tokens, and what sets that end."""
         return None
+
+
+def conflicts_beside(first: Conflict | None, failures: list[SyncFailure]) -> tuple[Conflict, ...]:
+    """The conflicts of later attempts that differ from the first."""
+    found: list[Conflict] = []
+    for failure in failures:
+        if failure.conflict is not None and failure.conflict != first and failure.conflict not in found:
+            found.append(failure.conflict)
+    return tuple(found)

@@ -2,6 +2,7 @@
 
 import pytest
 
+from runtime.executive.chance import sample
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
 from runtime.executive.outcome import EventKind, Outcome
 from tests.executive.flying import flown, fly, history, lines, simulator
@@ -108,3 +109,36 @@ def test_a_command_that_begins_later_than_it_might_has_the_draw_of_the_tick_at_w
         (begun,) = [line for line in history(outcome, "shop") if "Do(" in line]
         assert begun.startswith("28 ")
         assert float(begun.partition("d=")[2].rstrip(")")) == drawn[28]
+
+
+def test_what_is_drawn_while_a_command_waits_rules_nothing_out() -> None:
+    # The first command holds from 1 to 11. What is drawn meanwhile would not do for the second; what is drawn at 9 does
+    arm = """
+    float LOAD = [0.0 1.0];
+    class Arm extends AgentTimeline {
+        predicate Rest { }
+        predicate Do { int n; bool full; }
+        Arm(Mode m) { super(m, "Rest"); }
+    }
+    Arm::Do { float load; load == sampledParameter(LOAD); full == (load > 0.4); duration == 10; }
+    Arm arm = new Arm(Internal); close();
+    """
+    goals = (
+        GoalConfiguration("arm", "Do", 0, False, (1.0, 1.0), parameters=(("n", 1),)),
+        GoalConfiguration("arm", "Do", 2, False, (3.0, 30.0), parameters=(("n", 2), ("full", False))),
+    )
+    load = ParameterConfiguration("LOAD", 0.0, 1.0, mode="intra", update=3)
+    waited = 0
+    for seed in range(12):
+        ways = [
+            flown(simulator("arm", arm, "arm"), until=40, goals=goals, parameters=(load,), seed=seed, compiles=each)
+            for each in (True, False)
+        ]
+        assert all(each.report.holds for each in ways)
+        begun, general = (history(each.outcome, "arm") for each in ways)
+        assert begun == general
+        drawn = [sample(load, seed, tick).value for tick in (3, 6, 9)]
+        if drawn[0] <= 0.4 < drawn[1] and drawn[2] <= 0.4:
+            waited += 1
+            assert any(line.startswith("11 ") and "n=2" in line for line in general)
+    assert waited

@@ -40,6 +40,13 @@ def test_a_random_agent_with_draws_and_stores_flies_as_it_must(seed: int) -> Non
     assert faults_of_seed(seed, wide=True, rich=True)[1] == []
 
 
+# A log of steps, of which one found no plan; requests taken back while the owner plans, and once no steps are left; few
+# steps, of which a sleeping planner wants one.
+@pytest.mark.parametrize("seed", [0, 1, 5, 44, 49, 128])
+def test_a_random_agent_of_many_reactors_flies_as_it_must(seed: int) -> None:
+    assert faults_of_seed(seed, wide=True, rich=True, deep=True)[1] == []
+
+
 def test_the_oracle_sees_what_is_told_twice(tmp_path: Path) -> None:
     agent = random_agent(0, plain=True)
     lines = lines_of(run_mission(*loaded(agent.write(tmp_path)), 1))

@@ -1,152 +1,9 @@
 """Random agents: reactors in a random graph, written down as models, a mission file and an agent file of T-REX."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
 
-Bounds = tuple[int, int]
-STORE = 5  # what the store of a planner holds
-Kind = Literal["script", "counter", "mirror", "command", "task", "horn"]
-
-
-@dataclass(frozen=True, slots=True)
-class Child:
-    """What a task asks of a timeline: a relation, its value beside the task's own, and times, as text of the model."""
-
-    line: "Line"
-    relation: Literal["contains", "meets", "met_by", "follows", "beside"]
-    plus: int = 0
-    also: str = ""
-    before: "Child | None" = None  # comes first on the same timeline
-    least: int | None = None  # the n of a task from which on it asks for this
-    waits: bool = False  # it asks only once it has begun
-
-    def text(self, name: str, parent_has_factor: bool) -> str:
-        """The statements of a rule."""
-        said = f"{self.line.class_name}.Do {name}"
-        if self.relation == "follows":
-            said = f"any({said}); end + 2 <= {name}.start; {name}.start <= end + 9;"
-        elif self.relation == "beside":
-            said = f"any({said}); {name}.start == start;"
-        else:
-            said = f"{self.relation}({said});"
-        said += f" {name}.n == n + {self.plus}; {name}.start >= 1; {self.also.format(name)}"
-        if self.line.factor and parent_has_factor:
-            said += f" {name}.x == x * {self.line.factor} + 0.1;"
-        if self.before is not None:
-            said = f"{self.before.text(name + '0', parent_has_factor)} {said} {name}0 before {name};"
-        if self.least is not None:
-            said = f"if (n >= {self.least}) {{ {said} }}"
-        return f"if (start <= AGENT_CLOCK) {{ {said} }}" if self.waits else said
-
-
-@dataclass(frozen=True, slots=True)
-class Line:
-    """A timeline: what kind of thing it is, and what may be told about it beforehand."""
-
-    name: str
-    kind: Kind
-    steps: tuple[int, ...] = ()  # of a script: how long each lasts; of a counter: one length
-    breaks: bool = False  # the last step of a script cannot be followed by anything
-    extra: int = 1  # a command lasts n + extra
-    rest: int = 0  # and at least so long nothing after it
-    most: int | None = None  # the largest n that it carries out
-    lasts: tuple[int, int | None] = (1, None)  # a task
-    children: tuple[Child, ...] = ()
-    ties: str = ""  # what a task says of the times of two that it asks for, beside each other
-    within: "Line | None" = None  # a script: the task lies within its second step
-    copied: "Line | None" = None  # what a mirror shows
-    drawn: int = 0  # a command lasts up to so much longer, by chance
-    period: int = 0  # drawn anew every so many ticks
-    uses: int = 0  # of the store of its planner, from its start on
-    returns: bool = False  # at its end it gives back what it used
-    step: float = 1  # of a counter
-    factor: float = 0  # of another argument, which is its parent's so many times
-    planned: tuple[int, int] = (0, 0)  # the start and the n of a goal of the model itself
-
-    @property
-    def class_name(self) -> str:
-        """The name of its class."""
-        return self.name.capitalize()
-
-    def declaration(self) -> str:
-        """Its class."""
-        if self.kind == "script":
-            names = [f"S{number}" for number in range(len(self.steps) + 1)]
-            predicates, default = " ".join(f"predicate {name} {{ }}" for name in names), "S0"
-        elif self.kind == "counter":
-            kind = "int" if self.step == 1 else "float"
-            predicates, default = f"predicate At {{ {kind} v; }}", "At"
-        elif self.kind == "horn":
-            predicates, default = "predicate Quiet { } predicate Loud { int v; }", "Quiet"
-        elif self.kind == "mirror":
-            kind = "int" if self.copied is None or self.copied.step == 1 else "float"
-            predicates, default = f"predicate Dark {{ }} predicate Lit {{ {kind} v; }}", "Dark"
-        else:
-            more = " float x;" if self.factor else ""
-            predicates, default = f"predicate Rest {{ }} predicate Do {{ int n;{more} }}", "Rest"
-        name = self.class_name
-        return f'class {name} extends AgentTimeline {{ {predicates} {name}(Mode m) {{ super(m, "{default}"); }} }}'
-
-    def rules(self) -> Iterator[str]:
-        """What its owner's model says about it."""
-        name = self.class_name
-        if self.kind == "script":
-            for number, length in enumerate(self.steps):
-                yield f"{name}::S{number} {{ duration == {length}; meets(object.S{number + 1} next); }}"
-            if self.breaks:
-                yield f"{name}::S{len(self.steps)} {{ start <= 0; }}"
-        elif self.kind == "counter":
-            yield f"{name}::At {{ duration == {self.steps[0]}; meets(object.At next); next.v == v + {self.step}; }}"
-        elif self.kind == "mirror":
-            assert self.copied is not None
-            when, value = {"counter": ("At", "v"), "horn": ("Loud", "v")}.get(self.copied.kind, ("S1", "7"))
-            yield f"{self.copied.class_name}::{when} {{ equals({name}.Lit m); m.v == {value}; }}"
-        elif self.kind == "command":
-            most = f" n <= {self.most};" if self.most is not None else ""
-            lasting = f"duration == n + {self.extra};"
-            if self.drawn:
-                yield f"int {self.parameter} = [0 {self.drawn}];"
-                lasting = f"int late; late == sampledParameter({self.parameter}); duration == n + {self.extra} + late;"
-            yield f"{name}::Do {{ {lasting}{most} }}"
-            if self.rest:
-                yield f"{name}::Rest {{ duration >= {self.rest}; }}"
-        else:
-            lasts = f"duration >= {self.lasts[0]};"
-            if self.lasts[1] is not None:
-                lasts += f" duration <= {self.lasts[1]};"
-            inside = f" contained_by({self.within.class_name}.S1 w);" if self.within is not None else ""
-            asked = " ".join(child.text(f"c{number}", self.factor > 0) for number, child in enumerate(self.children))
-            yield f"{name}::Do {{ {lasts}{inside} {asked} {self.ties}{self.store()} }}"
-
-    @property
-    def parameter(self) -> str:
-        """The parameter from which a command draws how much longer it lasts."""
-        return f"LATE_{self.name.upper()}"
-
-    def store(self) -> str:
-        """What a task says of the store of its planner."""
-        if not self.uses:
-            return ""
-        said = f" any(Reservoir.consume take); take.time == start; take.quantity == {self.uses}.0;"
-        if self.returns:
-            said += f" any(Reservoir.produce give); give.time == end; give.quantity == {self.uses}.0;"
-        return said
-
-    def fact(self) -> str:
-        """How it begins, if something must be said."""
-        if self.planned[0]:
-            goal = f"{self.name}0"
-            return f"goal({self.name}.Do {goal}); {goal}.start == {self.planned[0]}; eq({goal}.n, {self.planned[1]});"
-        if self.kind != "counter":
-            return ""
-        return f"fact({self.name}.At {self.name}0); {self.name}0.start == 0; eq({self.name}0.v, 0);"
-
-    def used(self) -> Iterator["Line"]:
-        """The timelines of which its rules speak."""
-        yield from (child.line for child in self.children)
-        yield from (line for line in (self.within, self.copied) if line is not None)
+from tests.executive.generated.timelines import PACE, SPOTS, STORE, Bounds, Line
 
 
 @dataclass(slots=True)
@@ -175,7 +32,10 @@ class Reactor:
     def model(self) -> str:
         """Its model."""
         external = self.external()
-        text = ['#include "TREX.nddl"', *(line.declaration() for line in [*external, *self.lines])]
+        text = ['#include "TREX.nddl"']
+        text += [PACE] * any(line.paced for line in [*external, *self.lines])
+        text += [SPOTS] * any(line.placed or line.visits for line in [*external, *self.lines])
+        text += [line.declaration() for line in [*external, *self.lines]]
         if any(line.uses for line in self.lines):
             text.append(f"Reservoir store = new Reservoir({STORE}.0, 0.0, {STORE}.0);")
         text += [rule for line in self.lines for rule in line.rules()]
@@ -195,6 +55,7 @@ class Coded(Reactor):
 
     says: tuple[tuple[int, int], ...] = ()  # ticks, and the value of `Loud`; 0 for `Quiet`
     asks: tuple[tuple[int, Line, int, Bounds, int], ...] = ()  # a tick, whom, n, when to start, the tick of recall
+    raises: int | None = None  # the tick at which it fails
     answers: tuple[tuple[Line, Line, int], ...] = ()  # whenever the first holds something new, the second is asked
 
     def external(self) -> list[Line]:
@@ -207,7 +68,7 @@ class Coded(Reactor):
         asks = [(at, line.name, n, start, recall) for at, line, n, start, recall in self.asks]
         answers = [(seen.name, line.name, n) for seen, line, n in self.answers]
         own = self.lines[0].name
-        return CODE.format(says=dict(self.says), asks=asks, answers=answers, own=own)
+        return CODE.format(says=dict(self.says), asks=asks, answers=answers, own=own, raises=self.raises)
 
 
 CODE = """from runtime.user.reactor import Now, Reactor
@@ -220,7 +81,11 @@ class Hand(Reactor):
         self.numbers = {{}}
 
     def tick(self, now: Now) -> None:
+        if now.tick == {raises}:
+            raise ValueError("broken")
         if now.tick == 0:
+            if {raises}:
+                now.wake({raises})
             for at in {{*SAYS, *(ask[0] for ask in ASKS), *(ask[4] for ask in ASKS)}}:
                 if at > 0:
                     now.wake(at)
@@ -252,6 +117,8 @@ class Goal:
     duration: Bounds | None = None
     recall: int | None = None
     x: tuple[float, float] | None = None
+    pace: str = ""
+    spot: str = ""
 
 
 @dataclass(slots=True)
@@ -263,6 +130,7 @@ class RandomAgent:
     on_failure: str
     reactors: list[Reactor]
     goals: list[Goal]
+    steps: int | None = None  # of its clock
 
     def owner(self, line: Line) -> Reactor:
         """Who owns a timeline."""
@@ -272,6 +140,7 @@ class RandomAgent:
         """The mission file."""
         text = ["[mission]", f'name = "{self.name}"', f"final_tick = {self.final_tick}"]
         text.append(f'on_failure = "{self.on_failure}"')
+        text += [] if self.steps is None else ["[clock]", f"steps = {self.steps}"]
         for one in self.reactors:
             text += ["", "[[reactor]]", f'name = "{one.name}"']
             if isinstance(one, Coded):
@@ -305,6 +174,7 @@ class RandomAgent:
                 text.append(f"n = {goal.n}")
             if goal.x:
                 text.append(f"x = {list(goal.x)}")
+            text += [f'{name} = "{value}"' for name, value in (("pace", goal.pace), ("spot", goal.spot)) if value]
         return "\n".join([*text, "", "[check]", "missions = 1", "seed = 1", ""])
 
     def agent_file(self) -> str | None:
@@ -316,7 +186,10 @@ class RandomAgent:
             return None
         if any(line.drawn for line in lines):
             return None
-        text = [f'<Agent name="{self.name}" finalTick="{self.final_tick}">', '  <StepClock steps="50"/>']
+        text = [
+            f'<Agent name="{self.name}" finalTick="{self.final_tick}">',
+            f'  <StepClock steps="{self.steps or 50}"/>',
+        ]
         for one in self.reactors:
             steps = f' maxSteps="{one.max_steps}"' if one.max_steps is not None else ""
             text.append(
@@ -339,6 +212,9 @@ class RandomAgent:
                 text.append(_variable("n", f'value="{goal.n}"'))
             if goal.x:
                 text.append(_variable("x", f'min="{goal.x[0]}" max="{goal.x[1]}"', "float"))
+            for name, value in (("pace", goal.pace), ("spot", goal.spot)):
+                if value:
+                    text.append(_variable(name, f'value="{value}"', "symbol"))
             text.append("  </Goal>")
         return "\n".join([*text, "</Agent>", ""])
 

@@ -10,9 +10,9 @@ from tests.executive.generated.writer import random_agent
 PLAIN = 4  # so many agents in a row, one can be written as an agent file of T-REX
 
 
-def faults_of_seed(seed: int, wide: bool = False, rich: bool = False) -> tuple[str, list[str]]:
+def faults_of_seed(seed: int, wide: bool = False, rich: bool = False, deep: bool = False) -> tuple[str, list[str]]:
     """How the agent of a seed ended, and what is wrong about its flights."""
-    outcome, wrong = faults_of(random_agent(seed, seed % PLAIN == 0, wide, rich))
+    outcome, wrong = faults_of(random_agent(seed, seed % PLAIN == 0, wide, rich, deep))
     codes = [event.code for event in outcome.events if event.code]
     return codes[0] if codes else "ended", wrong
 
@@ -24,11 +24,12 @@ def main() -> int:
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--wide", action="store_true", help="with guards, ties, clocks and one planner more")
     parser.add_argument("--rich", action="store_true", help="with draws, stores, fractions, early and late timelines")
+    parser.add_argument("--deep", action="store_true", help="with long chains, objects, enumerations, few steps")
     given = parser.parse_args()
     codes: Counter[str] = Counter()
     wrong = 0
     for seed in range(given.first, given.first + given.count):
-        code, faults = faults_of_seed(seed, given.wide, given.rich)
+        code, faults = faults_of_seed(seed, given.wide, given.rich, given.deep)
         codes[code] += 1
         wrong += bool(faults)
         for fault in faults:

@@ -10,6 +10,7 @@ from checker.judge.rendering import disagreement_text
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.oracle import judge
+from runtime.executive.clocks import LogClock, StepClock
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, record_mission, run_mission
 from runtime.executive.outcome import Outcome
@@ -19,6 +20,8 @@ from tests.executive.generated.agents import RandomAgent
 from tests.executive.generated.oracle import Oracle
 from tests.executive.generated.promises import broken_promises
 from tests.programs import programs_of
+
+UNLIMITED = 10**6  # steps in a tick
 
 
 def loaded(file: Path) -> tuple[AgentConfiguration, MissionPrograms]:
@@ -60,6 +63,11 @@ def faults_of(agent: RandomAgent) -> tuple[Outcome, list[str]]:
             wrong.append("with every tick visited it is another flight")
         if told(run_mission(configuration, programs, 1, compiles=False)) != told(outcome):
             wrong.append("the general engine flies another mission")
+        clock = StepClock(agent.steps or UNLIMITED)
+        counted = record_mission(configuration, programs, 1, clock=clock)[0]
+        logged = record_mission(configuration, programs, 1, clock=LogClock(clock.counts))[0]
+        if not told(counted) == told(logged) == told(outcome):
+            wrong.append("by a log of its steps it is another flight")
         text = agent.agent_file()
         if text is not None:
             (Path(folder) / "agent.xml").write_text(text)

@@ -54,7 +54,10 @@ class Asked:
 
 
 def _meets(seen: Any, asked: Any) -> bool:
-    """Whether two intervals of numbers, or single ones, have a value in common."""
+    """Whether two intervals of numbers, or single ones, have a value in common; or two lists of names."""
+    names = [set(one if isinstance(one, list) else [one]) for one in (seen, asked)]
+    if any(isinstance(one, str) and one not in BOUNDS for each in names for one in each):
+        return bool(names[0] & names[1])
     (low, high), (least, most) = (bounds(one if isinstance(one, list) else [one, one]) for one in (seen, asked))
     return low <= most and least <= high
 
@@ -290,7 +293,10 @@ class Oracle:
             self.say(event, "F6, and nothing was given up")
         if code == "F5" and reactor.max_steps is None:
             self.say(event, "F5 without a limit")
-        if code not in ("F1", "F2", "F3", "F4", "F5", "F6", "F8"):
+        if isinstance(reactor, Coded):
+            if code != "F7" or reactor.raises != tick:
+                self.say(event, "it has no mistake here")
+        elif code not in ("F1", "F2", "F3", "F4", "F5", "F6", "F8"):
             self.say(event, f"no code of an agent of models: {code}")
 
     # ---- the whole ----

@@ -3,8 +3,9 @@
 from collections.abc import Iterator
 from typing import Any
 
-from tests.executive.generated.agents import STORE, Child, Coded, Line, Reactor
+from tests.executive.generated.agents import Coded, Reactor
 from tests.executive.generated.oracle import Asked, Held, Oracle, bounds
+from tests.executive.generated.timelines import STORE, Child, Line
 
 INFINITE = float("inf")
 
@@ -103,7 +104,7 @@ def of_what_is_said(oracle: Oracle, reactor: Coded, held: list[Held]) -> Iterato
     last = oracle.events[-1]["tick"]
     wanted = [one for one in reactor.says if one[0] <= last]
     got = [(one.start, one.arguments.get("v", 0)) for one in held if one.predicate != "Failed"]
-    sure = [one for one in wanted if one[0] < last]
+    sure = [one for one in wanted if one[0] < min(last, oracle.lost.get(reactor.name, last))]
     if got[: len(sure)] != sure or any(one not in wanted for one in got):
         yield f"{reactor.name} is to say {wanted}, and said {got}"
 
@@ -149,7 +150,7 @@ def of_what_is_asked_for(oracle: Oracle, line: Line, held: list[Held]) -> Iterat
 def of_one_alone(oracle: Oracle, line: Line, asked: Asked, held: Held) -> Iterator[str]:
     """What is the only thing that was ever asked for begins as soon as it may, and lasts as long as it may."""
     owner = oracle.owner(line.name)
-    if line.children or line.within is not None or owner.max_steps is not None or owner.name in oracle.relaxed:
+    if any(line.used()) or oracle.agent.steps or owner.max_steps is not None or owner.name in oracle.relaxed:
         return
     soonest = max(asked.start[0], asked.tick + 1, line.rest if line.kind == "command" else 0)
     if held.start != soonest:
@@ -158,7 +159,7 @@ def of_one_alone(oracle: Oracle, line: Line, asked: Asked, held: Held) -> Iterat
         return
     most = (ends(held.arguments["n"])[1] + line.extra) if line.kind == "command" else (line.lasts[1] or INFINITE)
     longest = min(most, asked.duration[1], asked.end[1] - held.start)
-    if not longest <= held.end - held.start <= longest + line.drawn:
+    if not longest <= held.end - held.start <= longest + line.slack:
         yield f"{line.name} was to last {longest}, and lasted from {held.start} to {held.end}"
 
 
@@ -175,7 +176,7 @@ def of_times(oracle: Oracle, line: Line, held: list[Held]) -> Iterator[str]:
             least, most = (line.rest if line.kind == "command" else 0), INFINITE
         elif one.predicate == "Do" and line.kind == "command":
             lowest, highest = ends(one.arguments["n"])
-            least, most = lowest + line.extra, highest + line.extra + line.drawn
+            least, most = lowest + line.extra, highest + line.extra + line.slack
             if line.most is not None and lowest > line.most:
                 yield f"{line.name} takes no n above {line.most}: {one}"
         elif one.predicate == "Do":
@@ -194,7 +195,7 @@ def of_children(oracle: Oracle, line: Line, held: list[Held]) -> Iterator[str]:
         return
     for one in (one for one in held if one.predicate == "Do" and one.end is not None):
         for child in line.children:
-            if child.least is not None and ends(one.arguments["n"])[0] < child.least:
+            if (child.least is not None and ends(one.arguments["n"])[0] < child.least) or child.above is not None:
                 continue
             found = [each for each in oracle.held[child.line.name] if fits(child, one, each)]
             if not found and not may_still_come(child, one, oracle.events[-1]["tick"]):

@@ -4,7 +4,9 @@ import random
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from tests.executive.generated.agents import Child, Coded, Goal, Line, RandomAgent, Reactor
+from tests.executive.generated.agents import Coded, Goal, RandomAgent, Reactor
+from tests.executive.generated.deepening import deepened
+from tests.executive.generated.timelines import Child, Line
 
 RELATIONS: tuple[Literal["contains", "meets", "met_by", "follows"], ...] = (
     "contains",
@@ -207,10 +209,13 @@ def add_hand(rich: random.Random, agent: RandomAgent) -> None:
     agent.reactors.insert(rich.randint(0, len(agent.reactors)), hand)
 
 
-def random_agent(seed: int, plain: bool = False, wide: bool = False, rich: bool = False) -> RandomAgent:
+def random_agent(
+    seed: int, plain: bool = False, wide: bool = False, rich: bool = False, deep: bool = False
+) -> RandomAgent:
     """The agent of a seed.
 
-    A plain one can be written as an agent file of T-REX too, a wide one has guards and ties, a rich one is `enriched`.
+    A plain one can be written as an agent file of T-REX too, a wide one has guards and ties, a rich one is `enriched`,
+    a deep one is a chain of reactors with objects and enumerations (`deepened`).
     """
     chance = random.Random(f"agent {seed}")
     writer = Writer(chance, more=random.Random(f"wide {seed}") if wide else None)
@@ -226,4 +231,5 @@ def random_agent(seed: int, plain: bool = False, wide: bool = False, rich: bool 
         goals = [Goal(g.line, g.at, g.start, g.n, g.is_mandatory, g.duration) for g in goals]
     chance.shuffle(writer.reactors)
     agent = RandomAgent(f"random{seed}", final_tick, on_failure, writer.reactors, goals)
-    return enriched(random.Random(f"rich {seed}"), agent) if rich else agent
+    agent = enriched(random.Random(f"rich {seed}"), agent) if rich else agent
+    return deepened(random.Random(f"deep {seed}"), agent) if deep else agent
