@@ -17,6 +17,7 @@ from runtime.executive.outcome import Event, EventKind
 
 Trace = Callable[[AgentConfiguration, int, int], MissionResult]  # agent, number, seed; with the events kept
 _MOST_RUNS = 31
+_MOST_TRIED = 3  # missions that pass, the nearest first
 _PAIRS = 6  # parameters of which all pairs are tried
 _MOST_TICKS = 6  # that are shown
 
@@ -72,13 +73,19 @@ def find_contrast(
     if row is None or not passing or not space.parameters:
         return None
     failing_point = space.point(row)
-    nearest = min(passing, key=lambda one: (_distance(space, failing_point, one), one.number))
-    nearest_row = space.row(nearest)
-    assert nearest_row is not None
-    search = SubsetSearch(space, failed, failing_point, space.point(nearest_row), trace)
+    passing.sort(key=lambda one: (_distance(space, failing_point, one), one.number))
+    for nearest in passing[:_MOST_TRIED]:
+        nearest_row = space.row(nearest)
+        assert nearest_row is not None
+        search = SubsetSearch(space, failed, failing_point, space.point(nearest_row), trace)
+        # What is redrawn comes from the failed mission: with that the values of the other need not pass.
+        if search.failing == search.passing or search.passes(()):
+            break
+    else:
+        return None
     differing = tuple(n for n, (a, b) in enumerate(zip(search.failing, search.passing, strict=True)) if a != b)
     likely = tuple(n for n in differing if space.names[n] in suspects)
-    if not differing or search.fails(()):
+    if not differing:
         return None
     begun = likely if likely and search.fails(likely) else differing
     if not search.fails(begun):
@@ -124,14 +131,22 @@ class SubsetSearch:
         self.space, self.failed, self.failing, self.passing, self.trace = space, failed, failing, passing, trace
         self.flown: dict[tuple[int, ...], MissionResult] = {}
 
+    def passes(self, chosen: tuple[int, ...]) -> bool:
+        """Whether it passes with the failing values of the parameters `chosen`."""
+        return self._flown(chosen).verdict is Verdict.PASS
+
     def fails(self, chosen: tuple[int, ...]) -> bool:
         """Whether it fails as the failed mission does with the failing values of the parameters `chosen`."""
+        result = self._flown(chosen)
+        return result.verdict is Verdict.FAIL and bucket_key(result) == bucket_key(self.failed)
+
+    def _flown(self, chosen: tuple[int, ...]) -> MissionResult:
         result = self.flown.get(chosen)
         if result is None:
             point = tuple(self.failing[n] if n in chosen else value for n, value in enumerate(self.passing))
             result = self.trace(self.space.agent_at(point), self.failed.number, self.failed.seed)
             self.flown[chosen] = result
-        return result.verdict is Verdict.FAIL and bucket_key(result) == bucket_key(self.failed)
+        return result
 
     def smallest(self, chosen: tuple[int, ...], whole: tuple[int, ...]) -> tuple[tuple[int, ...], bool]:
         """A set of which no part fails, and whether none of the `whole` is smaller: singles and pairs are all tried."""

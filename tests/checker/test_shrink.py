@@ -2,6 +2,7 @@
 
 import json
 import tomllib
+from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
@@ -79,6 +80,23 @@ def test_six_parameters_take_at_most_31_flights(size: int) -> None:
         assert {one.parameter for one in found.decisive} == needed
         assert found.flights <= 31
         assert found.is_smallest or size > 3
+
+
+def test_a_mission_that_fails_otherwise_with_the_redraws_of_the_failed_one_is_no_contrast() -> None:
+    needed = frozenset("C")
+    failed = result(1, dict.fromkeys(NAMES, 0.9), needed)
+    near, far = result(2, dict.fromkeys(NAMES, 0.4), needed), result(3, dict.fromkeys(NAMES, 0.1), needed)
+
+    def trace(agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
+        values = {one.name: one.values[0] for one in agent.parameters}
+        flown = result(number, values, needed)
+        if set(values.values()) == {0.4}:
+            return replace(flown, judgement=Judgement(Verdict.FAIL, "F4", Reason(ReasonKind.NO_PLAN)))
+        return flown
+
+    found = find_contrast(failed, (failed, near, far), six(), trace)
+    assert found is not None and found.passing == 3
+    assert find_contrast(failed, (failed, near), six(), trace) is None
 
 
 def test_a_suspect_that_decides_alone_takes_two_flights() -> None:
