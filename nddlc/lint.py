@@ -84,12 +84,14 @@ def command(
     seen = set()  # a file that several models include is complained about once
     has_failed = False
     mended = 0
-    for path in paths:
-        settings, gaps = _settings(path, codes, fail_on, is_trusted)
-        if (fix or unsafe_fixes or only_show) and path.suffix not in MISSION_SUFFIXES:
+    set_up = [(path, *_settings(path, codes, fail_on, is_trusted)) for path in paths]
+    # All is mended before anything is looked at: a mission or a model has part in what is mended in another file.
+    for path, settings, _ in set_up if fix or unsafe_fixes or only_show else ():
+        if path.suffix not in MISSION_SUFFIXES:
             mended += _mend(checker, path, settings, only_show=only_show, unsafe=unsafe_fixes, is_text=style == "text")
-            if only_show:
-                continue
+    if only_show:
+        return int(mended > 0)
+    for path, settings, gaps in set_up:
         findings = _check(checker, path, settings)
         if is_proved and path.suffix not in MISSION_SUFFIXES:
             directories_of = (*(Path(each) for each in directories), *settings.directories)
@@ -103,8 +105,6 @@ def command(
             seen.add(key)
             found.append(each)
             has_failed |= settings.fail_on is not None and at_least(each.severity, settings.fail_on)
-    if only_show:
-        return int(mended > 0)
     _tell(found, [str(path) for path in paths], style, mended, statistics)
     return int(has_failed)
 

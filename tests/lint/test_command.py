@@ -179,6 +179,18 @@ def test_fixes_are_carried_out(tmp_path: Path, capsys: Captured) -> None:
     assert list(tmp_path.iterdir()) == [Path(path)]
 
 
+def test_what_is_mended_in_an_included_file_is_not_told_of_the_one_that_includes_it(
+    tmp_path: Path, capsys: Captured
+) -> None:
+    part = file(tmp_path, UNUSED)
+    whole = tmp_path / "a.nddl"
+    whole.write_text(f'#include "{Path(part).name}"\n', encoding="utf-8")
+    assert run(["lint", str(whole), part]) == 1
+    capsys.readouterr()
+    assert run(["lint", str(whole), part, "--fix"]) == 0
+    assert "nothing wrong in 2 files" in capsys.readouterr().out
+
+
 def test_unsafe_fixes_are_asked_for(tmp_path: Path, capsys: Captured) -> None:
     path = file(tmp_path, ODD)
     assert run(["lint", path, "--fix"]) == 1
