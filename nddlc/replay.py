@@ -1,5 +1,6 @@
 """`nddlc replay`: fly the mission of a trace again, and say where it departs."""
 
+import json
 from pathlib import Path
 
 import click
@@ -38,9 +39,20 @@ def command(path: str, mission: str | None, is_trusted: bool) -> int:
     if recorded.models != flight.models:
         click.echo("the models are not those of the trace")
     click.echo(f"departs at line {number}:")
-    click.echo(f"  in the trace: {_shown(old)}")
-    click.echo(f"  flown now:    {_shown(new)}")
+    was, now = _shown(old), _shown(new)
+    if was == now:
+        was, now = (f"{was}, {what}" for what in _unlike(old, new))
+    click.echo(f"  in the trace: {was}")
+    click.echo(f"  flown now:    {now}")
     return _DEPARTS
+
+
+def _unlike(old: str, new: str) -> tuple[str, str]:
+    """What two events that look alike in short have that differs, as the trace has it."""
+    before, after = json_value(old), json_value(new)
+    keys = [key for key in {**before, **after} if before.get(key) != after.get(key)]
+    first, second = (", ".join(f"{key} {json.dumps(one.get(key))}" for key in keys) for one in (before, after))
+    return first, second
 
 
 def _shown(line: str) -> str:

@@ -82,6 +82,23 @@ def test_a_trace_is_flown_again(mission: Path, tmp_path: Path, capsys: pytest.Ca
     assert code == 1 and "the models are not those of the trace" in shown and "departs at line" in shown
 
 
+def test_events_that_look_alike_are_told_with_what_differs(mission: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    trace = mission.parent / "t.jsonl"
+    assert run(["run", str(mission), "--trace", str(trace)]) == 0
+    lines = trace.read_text().splitlines()
+    number = next(n for n, line in enumerate(lines) if '"kind":"request"' in line.replace(": ", ":"))
+    event = json.loads(lines[number])
+    event["start"] = [event["start"][0], event["start"][1] + 7]
+    lines[number] = json.dumps(event)
+    trace.write_text("\n".join(lines) + "\n")
+    capsys.readouterr()
+    code, shown = flown(capsys, "replay", str(trace))
+    was, now = (line.partition(":")[2].strip() for line in shown.splitlines()[-2:])
+    assert code == 1 and was != now
+    assert f"start {event['start']}" in was
+    assert f"start {[event['start'][0], event['start'][1] - 7]}" in now
+
+
 def test_what_is_no_trace_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "t.jsonl").write_text('{"kind": "observation"}\n')
     assert flown(capsys, "replay", str(tmp_path / "t.jsonl"))[0] == 2
