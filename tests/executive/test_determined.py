@@ -109,14 +109,15 @@ def test_numbers_whose_last_places_come_near_the_tolerance_are_left_to_the_gener
 
 @pytest.mark.once
 def test_the_missions_of_the_project_have_determined_reactors() -> None:
-    compiled, some = 0, MISSIONS[::8]
-    for path in some:
+    compiled = simulated = 0
+    for path in MISSIONS[::8]:
         mission, _ = read_mission(path)
         assert mission is not None
         programs = programs_of(mission.agent)
-        numbers = range(len(mission.agent.reactors))
-        compiled += any(register_program(mission.agent, programs, number) is not None for number in numbers)
-    assert compiled > len(some) // 2
+        simulators = [number for number, one in enumerate(mission.agent.reactors) if one.lookahead <= 1]
+        simulated += bool(simulators)
+        compiled += any(register_program(mission.agent, programs, number) is not None for number in simulators)
+    assert compiled > 0.9 * simulated > 20
 
 
 def test_a_step_a_tick_takes_commands() -> None:
