@@ -1,6 +1,6 @@
 """Our diagnostics in, the editor's out, file by file."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 
 from lsprotocol.types import (
     CodeDescription,
@@ -63,13 +63,6 @@ class Conversion:
     def location(self, span: Span) -> Location:
         """The file and place of `span`."""
         return Location(self.place(span.source)[0], self.range(span))
-
-    def by_file(self, diagnostics: Iterable[Diagnostic]) -> dict[str, tuple[Shown, ...]]:
-        """What the editor shows, by file."""
-        found: dict[str, list[Shown]] = {}
-        for diagnostic in diagnostics:
-            found.setdefault(self.place(diagnostic.span.source)[0], []).append(self.shown(diagnostic))
-        return {uri: tuple(shown) for uri, shown in found.items()}
 
     def shown(self, diagnostic: Diagnostic) -> Shown:
         """What the editor shows of one diagnostic: notes with a place become links, all else is text."""

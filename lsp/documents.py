@@ -13,14 +13,13 @@ from lsp.open_text import Document, DocumentContext, Publication
 from lsp.positions import Encoding, Lines, replaced
 from lsp.project import Project, ServerSettings, Snapshot
 from lsp.roots import all_roots, root_of
+from lsp.shown_text import ShownText, show
 from lsp.uris import key_of, path_of, uri_of
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.read import read_text
 from nddl_lang.text.source import Source
 
 _T = TypeVar("_T")
-# A text, what was found in it, and what the editor shows of that, by URI.
-_Converted = tuple[str, list[Diagnostic], dict[str, tuple[Shown, ...]]]
 
 
 class Documents:
@@ -39,7 +38,7 @@ class Documents:
         self._edited: dict[str, None] = {}  # keys of texts that were edited and not analysed since
         self._closed: dict[str, Project] = {}  # models of which no text is open, read when somebody asks
         self._found: dict[str, dict[str, tuple[Shown, ...]]] = {}  # project -> URI -> complaints
-        self._shown: dict[str, dict[str, _Converted]] = {}  # project -> name of a source -> what became of it
+        self._shown: dict[str, dict[str, ShownText]] = {}  # project -> name of a source -> what became of it
         # What else is wrong with files, beside what their texts tell: by URI.
         self.others: Callable[[], Mapping[str, tuple[Shown, ...]]] = dict
         self._published: dict[str, tuple[Shown, ...]] = {}
@@ -336,12 +335,8 @@ class Documents:
         merged: dict[str, tuple[Shown, ...]] = {}
         conversion = self.conversion()
         for source, found in by_source.items():
-            old = before.get(source.name)
-            if old is None or old[0] != source.text or old[1] != found or _leads_elsewhere(found):
-                old = source.text, found, conversion.by_file(found)
-            known[source.name] = old
-            for uri, complaints in old[2].items():
-                merged[uri] = (*merged.get(uri, ()), *complaints)
+            known[source.name] = each = show(source, found, conversion, before.get(source.name))
+            merged[each.uri] = (*merged.get(each.uri, ()), *each.shown)
         self._shown[project.key] = known
         return merged
 
@@ -362,13 +357,6 @@ class Documents:
             document = self.find(uri)
             yield Publication(uri, document.version if document is not None else None, complaints)
         self._published = merged
-
-
-def _leads_elsewhere(found: list[Diagnostic]) -> bool:
-    """Whether a note of the diagnostics of one text stands in another, which may have changed."""
-    return any(
-        note.span is not None and note.span.source is not each.span.source for each in found for note in each.notes
-    )
 
 
 def _plain(uri: str) -> str:

@@ -4,6 +4,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
+from itertools import accumulate
 
 from lsprotocol.types import Position, Range
 
@@ -26,16 +27,12 @@ class Lines:
     @cached_property
     def starts(self) -> tuple[int, ...]:
         """Where each line begins."""
-        starts = [0]
         text = self.text
         if "\r" in text:
             # A CR that an LF follows ends no line of its own; both have one length, so offsets stay right.
             text = text.replace("\r\n", " \n").replace("\r", "\n")
-        at = text.find("\n")
-        while at >= 0:
-            starts.append(at + 1)
-            at = text.find("\n", at + 1)
-        return tuple(starts)
+        lengths = [len(line) + 1 for line in text.split("\n")]
+        return (0, *accumulate(lengths[:-1]))
 
     @cached_property
     def _is_plain(self) -> bool:

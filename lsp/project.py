@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 from lsp.occurrences import NameIndex, NameIndexer
@@ -46,7 +47,7 @@ class ServerSettings:
     know: Know = read_only
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class Snapshot:
     """The analysis of a model as it stands, and the parse of each of its texts, by the key of its file.
 
@@ -57,8 +58,13 @@ class Snapshot:
     analysis: Analysis
     diagnostics: tuple[Diagnostic, ...]
     parses: dict[str, Parse]
-    names: NameIndex
+    indexer: NameIndexer
     keys: dict[Source, str]
+
+    @cached_property
+    def names(self) -> NameIndex:
+        """Where each name stands: worked out once somebody asks."""
+        return self.indexer.index(self.analysis)
 
 
 class Project:
@@ -93,7 +99,6 @@ class Project:
         # Should this fail half-way, nothing half-done is kept.
         analyser, self._analyser = self._analyser, Analyser(self._configuration.callables)
         linter, self._linter = self._linter, Linter()
-        indexer, self._indexer = self._indexer, NameIndexer()
         self._used = {}
         loaded = load_module_graph(
             Source(name, text),
@@ -111,8 +116,8 @@ class Project:
         found = tuple(self._configuration.choose((*self._gaps, *linter.lint(analysis))))
         parses = {self.key: loaded.parses[0], **parses}
         keys = {parse.source: key for key, parse in parses.items()}
-        self._snapshot = Snapshot(analysis, found, parses, indexer.index(analysis), keys)
-        self._analyser, self._linter, self._indexer = analyser, linter, indexer
+        self._snapshot = Snapshot(analysis, found, parses, self._indexer, keys)
+        self._analyser, self._linter = analyser, linter
 
     def look_again(self) -> None:
         """Files may have changed on the disk, also such as are none of its own."""
@@ -135,6 +140,9 @@ class Project:
             parse = incremental.update(source.text)
         else:
             incremental, parse = known
+            if parse.source.text == source.text and parse.source.name == source.name:
+                self._used[place] = known
+                return parse
             if parse.source.text != source.text:
                 parse = incremental.update(source.text)
         # All spans point into the source that the includes were followed from.

@@ -70,14 +70,17 @@ class _Protocol(LanguageServerProtocol):
         empty = types.PublishDiagnosticsParams(params.uri, (), params.version)
         written = super()._serialize_message(types.PublishDiagnosticsNotification(empty))
         if params.diagnostics:
-            # An error anywhere takes the findings back for a moment: what was sent is kept while nothing is wrong.
             before = self._plain.get(params.uri, {})
             now = {
                 id(each): before.get(id(each)) or (each, self._converter.unstructure(each))
                 for each in params.diagnostics
             }
-            self._plain[params.uri] = now
+            # An error anywhere takes the findings back for a moment: what was sent is kept until more is.
+            if len(now) >= len(before):
+                self._plain[params.uri] = now
             written["params"]["diagnostics"] = [now[id(each)][1] for each in params.diagnostics]
+        elif isinstance(self._server, Session) and self._server.documents.find(params.uri) is None:
+            self._plain.pop(params.uri, None)
         return written
 
     def structure_message(self, data: dict[str, Any]) -> Any:

@@ -14,7 +14,7 @@ from nddl_lang.semantics.codes import UNKNOWN_CLASS, UNKNOWN_NAME, UNKNOWN_TYPE
 from nddl_lang.semantics.schema import Schema, SideTables
 from nddl_lang.semantics.scope import Context, Deferred, names_in
 from nddl_lang.semantics.statement import check_statement
-from nddl_lang.semantics.symbol_table import Entry, SymbolTable, declare_below, doubt, told
+from nddl_lang.semantics.symbol_table import ALL_NAMES, Entry, SymbolTable, declare_below, doubt, told
 from nddl_lang.syntax.codes import MISSING_FILE, TOO_DEEP, TOO_LARGE, UNCLOSED_COMMENT, UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import LoadedModules, load_module_graph
@@ -92,8 +92,8 @@ class _Unit:
 class Analyser:
     """Analyses a model again and again while it is edited.
 
-    A statement is checked again only if it changed, or if something that it looked up among the statements above it
-    did; a text of n statements costs n look-ups beside that.
+    A statement is checked again only if it changed, or if something that it looked up did; what the others leave
+    behind is put again, without a look.
     """
 
     def __init__(self, callables: Callables = NATIVE_CALLABLES) -> None:
@@ -108,32 +108,36 @@ class Analyser:
         if loaded.dialect is not self._dialect:
             self._units, self._dialect = {}, loaded.dialect
         statements = loaded.module.statements
+        before = list(self._units.items())
+        first, last = _replaced([statement for statement, _ in before], statements)
+        gone = [unit for _, unit in before[first : len(before) - len(statements) + last]]
         symbols = SymbolTable()
         self._note_declarations(symbols, loaded)
         supposed = symbols.entries()
-        # Below statements that leave behind what those before them left, each look-up gets its old answer.
-        before = list(self._units.values()) if supposed == self._supposed else []
-        same = len(before)
+        # What a look-up may find otherwise than before, at the statement at hand; all others get their old answers.
+        changed = _differences(self._supposed, supposed)
         units: dict[Statement, _Unit] = {}
         for index, statement in enumerate(statements):
+            if index == last:
+                changed |= _changed_by(gone, [units[each] for each in statements[first:last]])
             unit = self._units.get(statement)
-            old = before[index] if index < same else None
-            if unit is not None and (unit is old or symbols.answers(unit.reads)):
+            is_in_place = index < first or index >= last
+            if unit is not None and (
+                (is_in_place and unit.reads.keys().isdisjoint(changed)) or symbols.answers(unit.reads)
+            ):
                 symbols.replay(unit.writes)
             else:
+                old = [unit] if unit is not None and is_in_place else []
                 unit = _check(symbols, statement, loaded.dialect, self._callables)
-            if old is not None and unit is not old and told(unit.writes) != told(old.writes):
-                same = index
+                changed |= _changed_by(old, [unit]) if old else set()
             units[statement] = unit
         self._units, self._supposed = units, supposed
         echoes = _Echoes(loaded)
-        complaints: list[tuple[Statement, tuple[Diagnostic, ...]]] = []
-        for statement, unit in units.items():
-            told_of: tuple[Diagnostic, ...] = ()
+        complaints: list[tuple[int, tuple[Diagnostic, ...]]] = []
+        for index, unit in enumerate(units.values()):
             if unit.complaints or unit.deferred:
                 all_of = (*unit.complaints, *_deferred(symbols, unit, loaded, self._callables))
-                told_of = tuple(echoes._without(all_of))
-            complaints.append((statement, told_of))
+                complaints.append((index, tuple(echoes._without(all_of))))
         declared = (name for unit in units.values() for name in unit.tables.declared)
         found = name_misspelt_declaration(loaded.sources, tuple(_in_order(loaded, complaints)), declared)
         found = name_missing_include(loaded, found, _declared_names)
@@ -143,14 +147,47 @@ class Analyser:
     def _note_declarations(self, symbols: SymbolTable, loaded: LoadedModules) -> None:
         """Note what is declared where, and which names are doubtful because text was not understood or is missing."""
         noted: dict[Statement, dict[Entry, object]] = {}
+        all_of: dict[Entry, object] = {}
         for statement in loaded.module.statements:
             entries = self._noted.get(statement)
             noted[statement] = entries = _supposed_of(statement) if entries is None else entries
             if entries:
-                symbols.suppose(entries)
+                all_of.update(entries)
+        symbols.suppose(all_of)
         self._noted = noted
         if any(diagnostic.code in _TEXT_IS_MISSING for diagnostic in loaded.diagnostics):
             symbols.suppose(doubt())
+
+
+def _replaced(old: Sequence[Statement], new: Sequence[Statement]) -> tuple[int, int]:
+    """Where in `new` those statements stand, from and to, that are not as in `old` before or after them."""
+    most = min(len(old), len(new))
+    first = 0
+    while first < most and old[first] is new[first]:
+        first += 1
+    kept = 0
+    while kept < most - first and old[-1 - kept] is new[-1 - kept]:
+        kept += 1
+    return first, len(new) - kept
+
+
+def _changed_by(old: Iterable[_Unit], new: Iterable[_Unit]) -> set[Entry]:
+    """What a look-up may find otherwise below the statements `new` than below `old`, which stood in their place."""
+    gone = [each for unit in old for each in told(unit.writes).items()]
+    put = [each for unit in new for each in told(unit.writes).items()]
+    changed = _differences(dict(gone), dict(put))
+    if [entry for entry, _ in gone] != [entry for entry, _ in put]:
+        changed.add(ALL_NAMES)
+    return changed
+
+
+def _differences(old: Mapping[Entry, object], new: Mapping[Entry, object]) -> set[Entry]:
+    changed = set(old.keys() - new.keys())
+    for entry, value in new.items():
+        before = old.get(entry)
+        if (before is not value and before != value) or (value is None and entry not in old):
+            changed.add(entry)
+    return changed
 
 
 def analyse(loaded: LoadedModules, callables: Callables = NATIVE_CALLABLES) -> Analysis:
@@ -249,11 +286,11 @@ def _declared_names(statement: Statement) -> Iterator[Identifier]:
             pass
 
 
-def _in_order(loaded: LoadedModules, checked: list[tuple[Statement, tuple[Diagnostic, ...]]]) -> Iterator[Diagnostic]:
-    """All complaints in the order of execution; those of the syntax stand so already."""
+def _in_order(loaded: LoadedModules, checked: list[tuple[int, tuple[Diagnostic, ...]]]) -> Iterator[Diagnostic]:
+    """All complaints in the order of execution, those of the syntax stand so already; `checked` by statement."""
     starts: dict[Source, tuple[list[int], list[int]]] = {}
     if loaded.diagnostics:
-        for index, (statement, _) in enumerate(checked):
+        for index, statement in enumerate(loaded.module.statements):
             begins, indices = starts.setdefault(statement.span.source, ([], []))
             begins.append(statement.span.begin)
             indices.append(index)
@@ -266,7 +303,7 @@ def _in_order(loaded: LoadedModules, checked: list[tuple[Statement, tuple[Diagno
         pending.append((reached, diagnostic))
     pending.reverse()
     chains = _Chains(loaded)
-    for index, (_, complaints) in enumerate(checked):
+    for index, complaints in checked:
         while pending and pending[-1][0] <= index:
             yield pending.pop()[1]
         for complaint in complaints:

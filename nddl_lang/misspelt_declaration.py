@@ -59,7 +59,8 @@ def name_misspelt_declaration(
             words[source] = _words(source)
         return words[source].get(word, 0)
 
-    declarations = {each.name: each for each in declared}
+    asked = {name for _, used, meant in groups for name in (used, meant)}
+    declarations = {each.name: each for each in declared if each.name in asked}
     told: dict[Diagnostic, Diagnostic | None] = {}
     for (source, used, name), complaints in groups.items():
         declaration = declarations.get(name)

@@ -5,6 +5,7 @@ declare for them.
 """
 
 from collections.abc import Iterator
+from collections.abc import Set as AbstractSet
 
 from nddl_lang.lint.codes import (
     FREE_PARAMETER,
@@ -35,28 +36,33 @@ def lint_declarations(whole: Whole) -> Iterator[Diagnostic]:
     """Names that nothing in the model refers to."""
     if not whole.is_whole:
         return
-    for part in whole.parts:
-        if not whole.is_own(part.node.span):
-            continue
-        match part.node:
-            case VariableDecl():
-                yield from _globals(whole, part, part.node)
-            case ClassDecl():
-                yield from _members(whole, part, part.node)
-                yield from _parameters(whole, part, part.node)
-            case EnumDecl():
-                yield from _values(whole, part.node)
-            case TypedefDecl(name=name) if name.name not in whole.words:
-                fix = Fix(f"remove `{name.name}`", (removal(part.node.span),))
-                yield UNUSED_TYPE.at(name.span, fixes=(fix,), what="typedef", name=name.name)
+    used = whole.usage.variables
+    for part in whole.own(VariableDecl):
+        yield from _globals(whole, part, used)
+    for part in whole.own(ClassDecl):
+        assert isinstance(part.node, ClassDecl)
+        yield from _members(whole, part, part.node)
+        if not whole.gist_of[part].parameters <= used:
+            yield from _parameters(whole, part, part.node)
+    for part in whole.own(EnumDecl):
+        assert isinstance(part.node, EnumDecl)
+        yield from _values(whole, part.node)
+    for part in whole.own(TypedefDecl):
+        assert isinstance(part.node, TypedefDecl)
+        name = part.node.name
+        if name.name not in whole.usage.words:
+            fix = Fix(f"remove `{name.name}`", (removal(part.node.span),))
+            yield UNUSED_TYPE.at(name.span, fixes=(fix,), what="typedef", name=name.name)
 
 
-def _globals(whole: Whole, part: Part, node: VariableDecl) -> Iterator[Diagnostic]:
+def _globals(whole: Whole, part: Part, used: AbstractSet[object]) -> Iterator[Diagnostic]:
+    node = part.node
+    assert isinstance(node, VariableDecl)
     for index, declarator in enumerate(node.declarators):
         variable = part.tables.declared.get(declarator.name)
-        if not isinstance(variable, Variable) or variable.type.kind is Kind.OBJECT or variable in whole.variables:
+        if not isinstance(variable, Variable) or variable.type.kind is Kind.OBJECT or variable in used:
             continue
-        if variable.name in whole.words or isinstance(declarator.initialiser, NewExpr):
+        if variable.name in whole.usage.words or isinstance(declarator.initialiser, NewExpr):
             continue
         # What somebody wrote down is often read by a line that is missing.
         fix = undeclare(node, index, safe=declarator.initialiser is None)
@@ -69,8 +75,8 @@ def _members(whole: Whole, part: Part, node: ClassDecl) -> Iterator[Diagnostic]:
             continue
         for declarator in declaration.declarators:
             member = part.tables.declared.get(declarator.name)
-            if isinstance(member, Variable) and member not in whole.variables:
-                done = "read" if member in whole.written else "used"
+            if isinstance(member, Variable) and member not in whole.usage.variables:
+                done = "read" if member in whole.usage.written else "used"
                 if member.type.kind is Kind.OBJECT and done == "read":
                     continue  # the object that it holds may be what counts
                 yield UNUSED_MEMBER.at(declarator.name.span, name=member.name, owner=node.name.name, done=done)
@@ -78,36 +84,37 @@ def _members(whole: Whole, part: Part, node: ClassDecl) -> Iterator[Diagnostic]:
 
 def _values(whole: Whole, node: EnumDecl) -> Iterator[Diagnostic]:
     name = node.name.name
-    if name not in whole.words and not any(value.name in whole.words for value in node.values):
+    if name not in whole.usage.words and not any(value.name in whole.usage.words for value in node.values):
         fix = Fix(f"remove `{name}`", (removal(node.span),))
         yield UNUSED_TYPE.at(node.name.span, fixes=(fix,), what="enum", name=name)
         return
     # Where no value is ever written, all of them are for a search to choose from.
-    if sum(value.name in whole.words for value in node.values) < 2:
+    if sum(value.name in whole.usage.words for value in node.values) < 2:
         return
     for value in node.values:
-        if value.name not in whole.words:
+        if value.name not in whole.usage.words:
             yield UNUSED_VALUE.at(value.span, name=value.name, enum=name)
 
 
 def _parameters(whole: Whole, part: Part, node: ClassDecl) -> Iterator[Diagnostic]:
     owner = whole.analysis.schema.classes.get(node.name.name)
-    if owner is None or AGENT_TIMELINE in whole.analysis.schema.ancestry(owner.name):
+    if owner is None or AGENT_TIMELINE in whole.ancestry(owner.name):
         return  # tokens of shared timelines come from other reactors, with their parameters
     for declaration in node.members or ():
         if isinstance(declaration, PredicateDecl):
             predicate = owner.predicates.get(declaration.name.name)
-            if predicate is not None and predicate.name in whole.requested:
+            if predicate is not None and predicate.name in whole.usage.requested:
                 yield from _free(whole, part, declaration, predicate)
 
 
 def _free(whole: Whole, part: Part, node: PredicateDecl, predicate: Predicate) -> Iterator[Diagnostic]:
+    used = whole.usage.variables
     for declaration in node.body:
         if not isinstance(declaration, VariableDecl):
             continue
         for declarator in declaration.declarators:
             variable = part.tables.declared.get(declarator.name)
-            if not isinstance(variable, Variable) or variable in whole.variables or declarator.initialiser is not None:
+            if not isinstance(variable, Variable) or variable in used or declarator.initialiser is not None:
                 continue
             is_open = variable.type.kind in (Kind.INT, Kind.FLOAT, Kind.STRING) and variable.type.restriction is None
             code = FREE_PARAMETER if is_open else UNUSED_PARAMETER

@@ -5,8 +5,11 @@ from pathlib import Path
 
 from nddl_lang.analysis import Analysis
 from nddl_lang.lint.declarations import lint_declarations
+from nddl_lang.lint.gist import Gist, gist
+from nddl_lang.lint.gist_counts import GistCounts
 from nddl_lang.lint.guards import lint_guards
-from nddl_lang.lint.local_names import lint_hidden_names, lint_names_of_values, lint_unused_labels, lint_unused_locals
+from nddl_lang.lint.local_names import lint_hidden_names, lint_unused_labels, lint_unused_locals
+from nddl_lang.lint.names_of_values import lint_names_of_values
 from nddl_lang.lint.numbers import (
     lint_beyond_floats,
     lint_chained_comparisons,
@@ -23,7 +26,7 @@ from nddl_lang.lint.structure import lint_structure
 from nddl_lang.lint.subgoals import lint_subgoals
 from nddl_lang.lint.suppression import suppress
 from nddl_lang.lint.timing import lint_times, lint_times_together
-from nddl_lang.lint.whole import Gist, Whole, assemble, gist
+from nddl_lang.lint.whole import Whole, assemble
 from nddl_lang.semantics.schema import SideTables
 from nddl_lang.text.diagnostic import Diagnostic
 
@@ -32,7 +35,6 @@ _PART_LINTS: tuple[PartLint, ...] = (
     lint_unused_locals,
     lint_unused_labels,
     lint_hidden_names,
-    lint_names_of_values,
     lint_guards,
     lint_times,
     lint_subgoals,
@@ -54,6 +56,7 @@ _WHOLE_LINTS: tuple[Callable[[Whole], Iterable[Diagnostic]], ...] = (
     lint_capacity,
     lint_includes,
     lint_times_together,
+    lint_names_of_values,
     lambda whole: compare_draws(whole.parts),
 )
 
@@ -79,6 +82,7 @@ class Linter:
     def __init__(self, judged: frozenset[Path] = frozenset()) -> None:
         self.judged = judged
         self.known: dict[SideTables, _Known] = {}
+        self._usage = GistCounts()
 
     def lint(self, analysis: Analysis) -> tuple[Diagnostic, ...]:
         """All complaints: those of the analysis, then findings, in the order of the files and of the text.
@@ -97,7 +101,9 @@ class Linter:
             known[tables] = each
             order.append(each)
         self.known = known
-        whole = assemble(analysis, [each.part for each in order], [each.gist for each in order], self.judged)
+        gists = [each.gist for each in order]
+        self._usage.update(gists)
+        whole = assemble(analysis, [each.part for each in order], gists, self._usage, self.judged)
         found = [finding for finding in _findings(whole, order) if finding.span.source not in whole.library]
         places = {source: number for number, source in enumerate(analysis.loaded.sources)}
         found.sort(key=lambda finding: (places.get(finding.span.source, 0), finding.span.begin, finding.code.id))

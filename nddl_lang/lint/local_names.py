@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 from nddl_lang.lint.codes import (
-    HIDDEN_BY_VALUE,
     HIDDEN_GLOBAL,
     HIDDEN_LOCAL,
     HIDDEN_PARAMETER,
@@ -160,26 +159,13 @@ def _hidden_by_others(part: Part, name: Identifier) -> Iterator[Finding]:
         yield finding
 
 
-def lint_names_of_values(part: Part) -> Iterator[Finding]:
-    """A parameter, local or global variable whose name is an enum value: it can never be read by that name."""
-    names: list[Identifier] = []
+def named_variables(part: Part) -> list[Identifier]:
+    """The names of the variables that a statement declares: parameters, formal ones, local and global variables."""
     if isinstance(part.node, RuleDecl | VariableDecl):
-        names = [each.name for node in part.all(VariableDecl) for each in node.declarators]
-    else:
-        for predicate in part.all(PredicateDecl):
-            for statement in predicate.body:
-                if isinstance(statement, VariableDecl):
-                    names += [each.name for each in statement.declarators]
-        names += [formal.name for formal in part.all(FormalParameter)]
-    for name in names:
-        yield _named_like_value(name)
-
-
-def _named_like_value(name: Identifier) -> Finding:
-    def finding(facts: Facts) -> Diagnostic | None:
-        value = facts.schema.enum_values.get(name.name)
-        if value is None:
-            return None
-        return HIDDEN_BY_VALUE.at(name.span, help="give it another name", name=name.name, enum=value.enum)
-
-    return finding
+        return [each.name for node in part.all(VariableDecl) for each in node.declarators]
+    names: list[Identifier] = []
+    for predicate in part.all(PredicateDecl):
+        for statement in predicate.body:
+            if isinstance(statement, VariableDecl):
+                names += [each.name for each in statement.declarators]
+    return [*names, *(formal.name for formal in part.all(FormalParameter))]

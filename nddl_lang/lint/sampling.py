@@ -100,7 +100,7 @@ def compare_draws(parts: list[Part]) -> Iterator[Diagnostic]:
     """A parameter without a range of its own that is drawn into variables with different ranges."""
     first: dict[object, _DrawSite] = {}
     for part in parts:
-        for draw in _draws(part):
+        for draw in _draws(part) if part.tables.sampled else ():
             if isinstance(draw.parameter, GlobalReference) and declared(draw.parameter.variable) is not None:
                 continue
             if draw.domain is None:

@@ -33,12 +33,13 @@ from nddl_lang.syntax.nodes import (
 from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.source import Span
 
+_RESOURCES = frozenset({"Reusable", "CBReusable", "Reservoir", "Unary"})
 _DEFAULT_HORIZON = Interval(0, 100)
 
 
 def lint_script(whole: Whole) -> Iterator[Diagnostic]:
     """What the goals of a whole model say about times, objects and resources."""
-    goals = [(part, node) for part, node in whole.all(GoalStatement)]
+    goals = [(part, part.node) for part in whole.statements(GoalStatement) if isinstance(part.node, GoalStatement)]
     yield from _horizon(whole, goals)
     yield from _merges(whole)
     yield from _facts(whole, goals)
@@ -76,7 +77,7 @@ def _horizon(whole: Whole, goals: list[tuple[Part, GoalStatement]]) -> Iterator[
             if predicate is None or predicate.is_event or _is_active_from_start(whole, predicate.class_name):
                 continue
             name = label.name if label is not None else instance.path.span.text
-            if label is None or label not in whole.labels:
+            if label is None or label not in whole.usage.labels:
                 help_ = f"a token is planned once it must start before {horizon.upper}: bound its `start`"
                 yield NEVER_PLANNED.at(instance.span, notes=notes, help=help_, name=name)
                 continue
@@ -89,7 +90,7 @@ def _horizon(whole: Whole, goals: list[tuple[Part, GoalStatement]]) -> Iterator[
 def _is_active_from_start(whole: Whole, class_name: str) -> bool:
     return any(
         whole.analysis.schema.classes[name].is_native and name not in ("Object", "Timeline")
-        for name in whole.analysis.schema.ancestry(class_name)
+        for name in whole.ancestry(class_name)
     )
 
 
@@ -97,7 +98,7 @@ def _is_active_from_start(whole: Whole, class_name: str) -> bool:
 
 
 def _merges(whole: Whole) -> Iterator[Diagnostic]:
-    for part in whole.parts:
+    for part in whole.statements(MethodCall):
         node = part.node
         if not isinstance(node, MethodCall) or node.method.name != "merge" or len(node.arguments) != 1:
             continue
@@ -129,7 +130,7 @@ def _facts(whole: Whole, goals: list[tuple[Part, GoalStatement]]) -> Iterator[Di
     if not whole.is_whole:
         return
     planned: set[Label] = set()
-    for part in whole.parts:
+    for part in (*whole.statements(MethodCall), *whole.statements(Assignment)):
         node = part.node
         if isinstance(node, MethodCall) and node.method.name in ("activate", "merge", "constrain"):
             for path in (node.target, *node.arguments):
@@ -152,9 +153,10 @@ def _facts(whole: Whole, goals: list[tuple[Part, GoalStatement]]) -> Iterator[Di
 
 def _unclosed(whole: Whole, first: Part) -> Iterator[Diagnostic]:
     choices: list[Variable] = []
-    for part in whole.parts:
+    for part in whole.statements(MethodCall):
         if isinstance(part.node, MethodCall) and part.node.method.name == "close":
             return
+    for part in whole.parts:
         for declaration in part.all(VariableDecl):
             for declarator in declaration.declarators:
                 variable = part.tables.declared.get(declarator.name)
@@ -230,7 +232,7 @@ def _capacities(whole: Whole) -> dict[Variable, float]:
     found: dict[Variable, float] = {}
     for variable in whole.analysis.schema.globals.values():
         new = variable.initialiser
-        if not isinstance(new, NewExpr):
+        if not isinstance(new, NewExpr) or _RESOURCES.isdisjoint(whole.ancestry(new.class_name.name)):
             continue
         capacity = _capacity(*_native(whole, new.class_name.name, [number(argument) for argument in new.arguments]))
         if capacity is not None and capacity < INFINITY:

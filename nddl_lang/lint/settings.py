@@ -44,6 +44,9 @@ class Settings:
 
     def choose(self, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
         """The findings that are asked for; an error always is."""
+        if not (self.select or self.ignore or self.severities):
+            yield from findings
+            return
         for finding in findings:
             if finding.severity is Severity.ERROR:
                 yield finding

@@ -33,14 +33,16 @@ class _Graph:
         self.schema = whole.analysis.schema
         self.rules: dict[str, list[Part]] = {}
         self.requests: dict[Part, tuple[ChildRequest, ...]] = {}
+        self.names: dict[Part, str] = {}
         for part, each in zip(whole.parts, whole.gists, strict=True):
-            if isinstance(part.node, RuleDecl) and part.node in part.tables.predicates:
-                self.rules.setdefault(part.tables.predicates[part.node].full_name, []).append(part)
+            if each.predicate:
+                self.rules.setdefault(each.predicate, []).append(part)
                 self.requests[part] = each.requests
+                self.names[part] = each.predicate
 
     def _rules_for(self, class_name: str, predicate: str) -> Iterator[Part]:
         """The rules that run for a token: those of its class and of the ancestors."""
-        for owner in self.schema.ancestry(class_name):
+        for owner in self.whole.ancestry(class_name):
             yield from self.rules.get(f"{owner}.{predicate}", ())
 
     def _reached(self, roots: list[Predicate]) -> set[str]:
@@ -72,8 +74,7 @@ def lint_structure(whole: Whole) -> Iterator[Diagnostic]:
     graph = _Graph(whole)
     roots = [
         predicate
-        for part in whole.parts
-        if isinstance(part.node, GoalStatement | Relation)
+        for part in (*whole.statements(GoalStatement), *whole.statements(Relation))
         for instance in part.all(Instance)
         if (predicate := part.predicate_of(instance)) is not None
     ]
@@ -138,16 +139,14 @@ def _endless(graph: _Graph) -> Iterator[Diagnostic]:
     later: _Followers = {}
     same: _Followers = {}
     for part, requests in graph.requests.items():
-        assert isinstance(part.node, RuleDecl)
-        own = part.tables.predicates[part.node]
         for request in requests:
             if not request.is_certain or request.relation.origin is not None:
                 continue
+            wanted = request.wanted.full_name
             word = request.relation.relation.name
-            if word in _FORWARD:
-                later.setdefault(own.full_name, []).append((request.wanted.full_name, request))
-            elif word not in _BACKWARD:
-                same.setdefault(own.full_name, []).append((request.wanted.full_name, request))
+            if wanted in graph.rules and word not in _BACKWARD:
+                followers = later if word in _FORWARD else same
+                followers.setdefault(graph.names[part], []).append((wanted, request))
     yield from _cycles(graph, same, ENDLESS)
     yield from _cycles(graph, later, CHAIN)
 
@@ -208,12 +207,12 @@ def _cycle(name: str, followers: _Followers) -> list[tuple[str, ChildRequest]]:
 
 def _without_effect(graph: _Graph) -> Iterator[tuple[PredicateDecl, Predicate]]:
     whole = graph.whole
-    for part in whole.parts:
+    for part in whole.own(ClassDecl):
         for node in part.all(PredicateDecl):
-            if not node.is_action or not whole.is_own(node.span):
+            if not node.is_action:
                 continue
             predicate = _declared(graph, part, node)
-            if predicate is None or predicate.name in whole.requested:
+            if predicate is None or predicate.name in whole.usage.requested:
                 continue  # what is asked for by its name need not bring anything about
             rules = list(graph._rules_for(predicate.class_name, predicate.name))
             below = [

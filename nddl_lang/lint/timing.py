@@ -23,16 +23,16 @@ _TAKING_BACK = frozenset(("reset", "cancel", "free"))
 
 def lint_times_together(whole: Whole) -> Iterator[Diagnostic]:
     """Contradictions between rules that fire for the same token, and between the statements of the script."""
-    rules: dict[tuple[str, str], list[Part]] = {}
-    for part in whole.parts:
-        if isinstance(part.node, RuleDecl):
-            rules.setdefault((part.node.class_name.name, part.node.predicate.name), []).append(part)
-    for (class_name, name), parts in rules.items():
+    rules: dict[str, dict[str, list[Part]]] = {}
+    for part in whole.statements(RuleDecl):
+        assert isinstance(part.node, RuleDecl)
+        rules.setdefault(part.node.predicate.name, {}).setdefault(part.node.class_name.name, []).append(part)
+    for (class_name, parts), of_others in ((each, others) for others in rules.values() for each in others.items()):
         inherited = [
             rule
-            for ancestor in whole.analysis.schema.ancestry(class_name)
-            if ancestor != class_name
-            for rule in rules.get((ancestor, name), ())
+            for ancestor in whole.ancestry(class_name)
+            if ancestor != class_name and ancestor in of_others
+            for rule in of_others[ancestor]
         ]
         if len(inherited) + len(parts) > 1:
             yield from _beside_others(parts, inherited)
@@ -61,17 +61,15 @@ def _plain_edges(part: Part) -> list[Edge]:
 
 def _in_script(whole: Whole) -> Iterator[Diagnostic]:
     """What the script demands of its tokens, unless it takes something back."""
-    if any(isinstance(part.node, MethodCall) and part.node.method.name in _TAKING_BACK for part in whole.parts):
-        return
-    edges: list[Edge] = []
+    for part in whole.statements(MethodCall):
+        if isinstance(part.node, MethodCall) and part.node.method.name in _TAKING_BACK:
+            return
     rejectable: set[object] = set()
-    last: Part | None = None
-    for part, each in zip(whole.parts, whole.gists, strict=True):
+    for part in whole.statements(GoalStatement):
         if isinstance(part.node, GoalStatement) and part.node.kind == "rejectable":
             rejectable |= {part.label_of(instance) for instance in part.node.instances}
-        if each.times:
-            edges += each.times
-            last = part
+    edges = [edge for _, demanded in whole.timed for edge in demanded]
+    last = whole.timed[-1][0] if whole.timed else None
     edges = [edge for edge in edges if edge.earlier[0] not in rejectable and edge.later[0] not in rejectable]
     if last is not None and (cycle := negative_cycle(edges)):
         yield _contradiction(last, cycle)

@@ -5,8 +5,8 @@ of them is an entry, looked up by table and name. What it looked up (with the an
 that the statement need not be analysed again while it would get the same answers.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import cast
+from collections.abc import Iterator, Mapping
+from typing import Any, cast
 
 from nddl_lang.semantics.natives import NATIVE_CLASSES, NATIVE_ENUM, NATIVE_ENUM_VALUES
 from nddl_lang.semantics.schema import (
@@ -27,7 +27,7 @@ Entry = tuple[str, str]
 
 _RULE = "rule"
 _IN_SCHEMA = frozenset({"class", "enum", "value", "typedef", "global", "goal", _RULE})  # what declares, and rules
-_ALL_NAMES: Entry = ("names", "*")
+ALL_NAMES: Entry = ("names", "*")
 _EVERYTHING = "*"
 
 
@@ -50,10 +50,18 @@ class SymbolTable:
     """The entries of a script up to one of its statements; `schema` holds the declarations among them."""
 
     def __init__(self) -> None:
-        self.schema = Schema()
+        self.schema = schema = Schema()
+        self._declared: dict[str, dict[str, Any]] = {
+            "class": schema.classes,
+            "enum": schema.enums,
+            "value": schema.enum_values,
+            "typedef": schema.typedefs,
+            "global": schema.globals,
+            "goal": schema.goals,
+        }
         self.reads: dict[Entry, object] = {}
         self.writes: dict[Entry, object] = {}
-        self._entries: dict[Entry, object] = {_ALL_NAMES: 0}
+        self._entries: dict[Entry, object] = {ALL_NAMES: 0}
         self._names = 0
         self.replay(
             {
@@ -68,12 +76,12 @@ class SymbolTable:
     def begin(self) -> None:
         """Start the record of the next statement."""
         self.reads, self.writes = {}, {}
-        self._entries[_ALL_NAMES] = self._names
+        self._entries[ALL_NAMES] = self._names
 
     def answers(self, reads: dict[Entry, object]) -> bool:
         """Whether a statement that got these answers would get the same ones now."""
         entries = self._entries
-        entries[_ALL_NAMES] = self._names
+        entries[ALL_NAMES] = self._names
         for entry, answer in reads.items():
             current = entries.get(entry)
             if current is not answer and current != answer:
@@ -106,27 +114,15 @@ class SymbolTable:
     def put(self, table: str, name: str, value: object) -> None:
         """Put an entry; a declaration enters the schema."""
         self.writes[table, name] = self._entries[table, name] = value
-        if table in _IN_SCHEMA:
-            self._enter(table, name, value)
+        self._enter(table, name, value)
 
     def _enter(self, table: str, name: str, value: object) -> None:
-        match value:
-            case Class():
-                self.schema.classes[name] = value
-            case Variable():
-                self.schema.globals[name] = value
-            case EnumValue():
-                self.schema.enum_values[name] = value
-            case Enumeration():
-                self.schema.enums[name] = value
-            case Typedef():
-                self.schema.typedefs[name] = value
-            case Label():
-                self.schema.goals[name] = value
-            case Rule():
-                self.schema.rules.append(value)
-        if table != _RULE:
+        declared = self._declared.get(table)
+        if declared is not None:
+            declared[name] = value
             self._names = hash((self._names, table, name))
+        elif table == _RULE:
+            self.schema.rules.append(cast(Rule, value))
 
     # ---- declarations ----
 
@@ -186,24 +182,9 @@ class SymbolTable:
 
     def names(self, *tables: str) -> Iterator[str]:
         """All names declared above in these tables, native ones included."""
-        self.look(*_ALL_NAMES)
+        self.look(*ALL_NAMES)
         for table in tables:
-            yield from self._names_of(table)
-
-    def _names_of(self, table: str) -> Iterable[str]:
-        match table:
-            case "class":
-                return self.schema.classes
-            case "enum":
-                return self.schema.enums
-            case "value":
-                return self.schema.enum_values
-            case "typedef":
-                return self.schema.typedefs
-            case "global":
-                return self.schema.globals
-            case _:
-                return self.schema.goals
+            yield from self._declared[table]
 
     # ---- what earlier mistakes make uncertain ----
 

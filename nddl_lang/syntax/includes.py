@@ -16,7 +16,7 @@ from nddl_lang.syntax.codes import (
 )
 from nddl_lang.syntax.dialect import Dialect, declared_dialect
 from nddl_lang.syntax.nodes import ClassDecl, Include, Module, Statement
-from nddl_lang.syntax.parser import MOST_LEXEMES, Parse, parse, parse_members, too_large
+from nddl_lang.syntax.parser import MOST_LEXEMES, Parse, includes_text, parse, parse_members, too_large
 from nddl_lang.syntax.roots import listed_models, model_meant
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 from nddl_lang.text.read import decode, is_text, read_named, read_text, real_path
@@ -142,13 +142,13 @@ class _Loader:
             (self.too_large,) = self._with_chain((too_large(place, self._most),))
         pending = iter(self._with_chain(parsed.diagnostics))
         upcoming = next(pending, None)
-        loaded: list[Any] = []
-        for statement in parsed.module.statements:
+        loaded: list[Any] = [] if parsed.has_includes else list(parsed.module.statements)
+        for statement in parsed.module.statements if parsed.has_includes else ():
             # Whoever reads the first complaint only reads the one that comes first in execution.
             while upcoming is not None and upcoming.span.begin < statement.span.begin:
                 self.diagnostics.append(upcoming)
                 upcoming = next(pending, None)
-            loaded += self._expand(statement)
+            loaded += self._expand(statement) if includes_text(statement) else (statement,)
         while upcoming is not None:
             self.diagnostics.append(upcoming)
             upcoming = next(pending, None)
@@ -158,14 +158,11 @@ class _Loader:
     def _expand(self, statement: Statement) -> list[Any]:
         if isinstance(statement, Include):
             return self._follow(statement, False)
-        if isinstance(statement, ClassDecl) and statement.members:
-            if not any(isinstance(member, Include) for member in statement.members):
-                return [statement]
-            members: list[Any] = []
-            for member in statement.members:
-                members += self._follow(member, True) if isinstance(member, Include) else [member]
-            return [replace(statement, members=tuple(members))]
-        return [statement]
+        assert isinstance(statement, ClassDecl)
+        members: list[Any] = []
+        for member in statement.members or ():
+            members += self._follow(member, True) if isinstance(member, Include) else [member]
+        return [replace(statement, members=tuple(members))]
 
     def _follow(self, include: Include, is_in_class: bool) -> list[Any]:
         """What `include` brings; nothing if it was brought before, or nothing counts any more."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from nddl_lang.syntax.codes import TOO_LARGE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.driver import parse_piece
-from nddl_lang.syntax.nodes import BrokenStatement, Module, Statement
+from nddl_lang.syntax.nodes import BrokenStatement, ClassDecl, Include, Module, Statement
 from nddl_lang.syntax.piece import Piece
 from nddl_lang.syntax.placement import CLASS, TOP, BlockGrammar
 from nddl_lang.syntax.scan import Scanner
@@ -31,6 +31,7 @@ class Parse:
     diagnostics: tuple[Diagnostic, ...]
     pieces: tuple[Piece, ...]
     size: int = 0
+    has_includes: bool = False
 
     @property
     def comments(self) -> Iterator[Span]:
@@ -98,4 +99,19 @@ def collect(source: Source, dialect: Dialect, pieces: tuple[Piece, ...]) -> Pars
         statements += piece.statements
         if piece.diagnostics:
             diagnostics += piece.diagnostics
-    return Parse(source, dialect, Module(tuple(statements)), tuple(diagnostics), pieces, size)
+    return Parse(
+        source,
+        dialect,
+        Module(tuple(statements)),
+        tuple(diagnostics),
+        pieces,
+        size,
+        any(map(includes_text, statements)),
+    )
+
+
+def includes_text(statement: Statement) -> bool:
+    """Whether there is an include in the statement, or it is one."""
+    if isinstance(statement, ClassDecl):
+        return Include in map(type, statement.members or ())
+    return isinstance(statement, Include)

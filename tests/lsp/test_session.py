@@ -2,7 +2,11 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
+
+from lsp.project import ServerSettings
+from lsp.server import make_session
 
 MODEL = """\
 #include "vehicle.nddl"
@@ -243,3 +247,16 @@ def test_an_include_that_is_being_written_in_an_open_model_silences_nothing(wire
     assert broken[0]["range"]["start"]["line"] == 0
     whole = wire.change(root, 3, {"range": place(0, 0, 1), "text": ""})["diagnostics"]
     assert [each["code"] for each in whole] == ["NDDL201"]
+
+
+def test_what_was_sent_of_a_text_is_forgotten_when_it_is_closed(tmp_path: Path) -> None:
+    session = make_session(ServerSettings(), lambda *_: ())
+    protocol: Any = session.protocol
+    sent: list[bytes] = []
+    protocol.set_writer(SimpleNamespace(write=sent.append, close=lambda: None))
+    uri, _ = model(tmp_path)
+    session.publish(session.documents.open(uri, 1, MODEL))
+    assert b"NDDL201" in sent[-1]
+    assert uri in protocol._plain
+    session.publish(session.documents.close(uri))
+    assert protocol._plain == {}

@@ -130,3 +130,22 @@ def test_an_edit_in_a_class_reaches_the_rules_that_use_it() -> None:
     found = editor.update(MODEL.replace("Percent level; }", "Percent depth; }")).diagnostics
     assert {each.span.text for each in found} == {"level"}
     assert editor.update(MODEL).diagnostics == ()
+
+
+def test_texts_in_another_order_are_analysed_as_if_read_anew() -> None:
+    texts = {"one.nddl": "int a = 1;\nfloat shared = 1.0;\n", "two.nddl": "int b = 2;\nint shared = 2;\n"}
+    kept = {name: Incremental(name) for name in ("model.nddl", *texts)}
+    analyser = Analyser()
+
+    def parse(path: Path, source: Source, dialect: Dialect, is_in_class: bool) -> Parse:
+        return kept[path.name].update(source.text)
+
+    def read(text: str, parse_text: object = None) -> LoadedModules:
+        source = Source("model.nddl", text)
+        open_text = lambda path: texts.get(str(path))  # noqa: E731
+        return load_module_graph(source, open_text=open_text, parse_text=parse_text)  # type: ignore[arg-type]
+
+    uses = "class C { int n; C(int m) { n = m; } }\nC c = new C(shared);\nint d = b;\n"
+    one, two = '#include "one.nddl"\n', '#include "two.nddl"\n'
+    for text in (one + two + uses, two + one + uses, one + uses, uses + two, one + two + uses, uses, two + uses + one):
+        assert picture(analyser.analyse(read(text, parse))) == picture(analyse(read(text))), text
