@@ -14,6 +14,7 @@ from checker.rendering import failure_text
 from checker.report.sentences import missions, percent
 from checker.sampling.rendering import number
 from checker.sampling.sampler import RANDOM_POINT, MissionRole
+from nddl_lang.text.read import real_path
 from nddl_lang.text.values import json_text, json_value
 from nddlc.inputs import STORE, Unusable
 
@@ -38,11 +39,23 @@ def command(before: str, after: str, confidence: float, store_path: Path, style:
     found = compare(both[0], both[1], confidence)
     if not found.missions:
         raise Unusable("these runs have no mission in common", "fly both with the same --seed and sampler")
+    is_same = _identity(before, store_path) == _identity(after, store_path)
     if style == "json":
         click.echo(json_text(_data(found, before, after, confidence)))
     else:
+        if is_same:
+            click.echo(f"`{before}` and `{after}` are one and the same run: it is compared with itself")
         click.echo(_text(found, before, after, confidence), nl=False)
     return _WORSE if found.is_worse and found.chance < _SURE else _SAME
+
+
+def _identity(name: str, store_path: Path) -> str:
+    """What tells a run or a report from all others."""
+    if name.endswith(".json"):
+        return str(real_path(Path(name)))
+    with read_store(store_path) as store:
+        run = store.find(name)
+    return name if run is None else run.id
 
 
 def _missions(name: str, store_path: Path) -> dict[Mission, Trialled]:

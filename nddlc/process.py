@@ -57,7 +57,7 @@ def command(action: str, path: str, by: str | None, workers: int | None, store_p
     except (OSError, ValueError) as problem:
         raise Unusable(f"`{place}` holds no records: {problem}") from None
     if action == "status":
-        click.echo(_status(records, digest, file), nl=False)
+        click.echo(_status(records, digest, file, path), nl=False)
         return _PASSED if len(passed(records, digest)) == len(ProcessStep) - len(UNBUILT) else _FINDINGS
     step = ProcessStep(action)
     lacking = missing_before(step, records, digest)
@@ -112,8 +112,8 @@ def _gold(file: Path, mission: Mission, models: ModelSet) -> tuple[bool, str]:
     return True, f"as {gold.by} accepted at {gold.at}"
 
 
-def _status(records: tuple[StepRecord, ...], digest: str, file: Path) -> str:
-    """A line per step."""
+def _status(records: tuple[StepRecord, ...], digest: str, file: Path, path: str) -> str:
+    """A line per step, and the command that takes the next one."""
     done = passed(records, digest)
     lines = [f"{file.name}, models {digest[:12]}"]
     for number, (step, meaning) in enumerate(STEPS.items(), 1):
@@ -128,6 +128,9 @@ def _status(records: tuple[StepRecord, ...], digest: str, file: Path) -> str:
         else:
             state = "not passed"
         lines += [f"{number}. {step.value}: {meaning}", f"   {state}"]
+    following = next((step for step in STEPS if step not in done and step not in UNBUILT), None)
+    if following is not None:
+        lines.append(f"next: `nddlc process {following} {path}`")
     return "\n".join(lines) + "\n"
 
 

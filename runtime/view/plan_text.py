@@ -161,6 +161,8 @@ def _ending(report: PlanReport) -> str:
             if loose := len(report.open_levels):
                 may = f"{loose} resource{'' if loose == 1 else 's'} may leave {'its' if loose == 1 else 'their'} limits"
                 return f"plan found after {count}, {force}, but {may}"
+            if not report.steps and not report.plan.tokens:
+                return f"plan found after {count}, {force}: no goal asks for anything, so there was nothing to plan"
             return f"plan found after {count}, {force}"
         case "timeout":
             return f"no plan found yet: stopped after {count}, {force}"

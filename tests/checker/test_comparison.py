@@ -90,7 +90,10 @@ def test_two_versions_of_a_model_are_compared(gps: Path, capsys: pytest.CaptureF
     assert len(found["flips"]) == b["counts"]["fail"] - a["counts"]["fail"]
     assert code == (1 if found["p"] < 0.05 else 0)
     assert run(["compare", "a/report.json", "b/report.json"]) == code
-    assert "McNemar" in capsys.readouterr().out
+    assert "McNemar" in (text := capsys.readouterr().out)
+    assert "compared with itself" not in text
+    assert run(["compare", "latest", b["run"]]) == 0
+    assert f"`latest` and `{b['run']}` are one and the same run" in capsys.readouterr().out
     assert run(["compare", a["run"], "none"]) == 2
 
 
@@ -109,6 +112,7 @@ def test_steps_come_in_their_order(gps: Path, capsys: pytest.CaptureFixture[str]
     assert "passed by ann" in text
     assert "3. random: random missions fail no more often than is accepted\n   not passed" in text
     assert "not possible: there is no physics simulator yet" in text
+    assert text.endswith("next: `nddlc process random gps/mission.toml`\n")
     model = gps / "navigator.nddl"
     model.write_text(model.read_text() + "// a remark\n")
     assert run(["process", "gold", "gps/mission.toml"]) == 2

@@ -171,6 +171,13 @@ def test_values_that_the_search_found_are_shown(tmp_path: Path, capsys: pytest.C
     assert "x         1\ny         2\n\nplan found" in capsys.readouterr().out
 
 
+def test_a_model_without_goals_has_nothing_to_plan(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert (
+        planned(tmp_path, "class Lamp extends Timeline { predicate On { } }\nLamp lamp = new Lamp();\nclose();\n") == 0
+    )
+    assert capsys.readouterr().out.endswith("no goal asks for anything, so there was nothing to plan\n")
+
+
 @pytest.mark.parametrize(
     ("step", "verdict"),
     [
