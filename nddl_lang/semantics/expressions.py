@@ -271,11 +271,8 @@ def _interval_type(context: Context, scope: Scope, interval: IntervalExpr) -> Ty
         if isinstance(bound, StringLiteral | BoolLiteral) or (number(bound) is None and _is_strict(context)):
             pass  # The parser has complained.
         elif number(bound) is None:
-            help_ = (
-                "compare with it instead, as in `x <= limit`, of two times `b.start <= a.end + limit`"
-                if type_.kind in NUMBERS
-                else None
-            )
+            advice = "compare with it instead, as in `x <= limit`, of two times `b.start <= a.end + limit`"
+            help_ = advice if type_.kind in NUMBERS else None
             context.complain(NOT_A_BOUND.at(bound.span, help=help_, text=bound.span.text))
         else:
             kinds.append(type_.kind)
