@@ -4,8 +4,10 @@ python bench/overhead.py                           models/gps
 python bench/overhead.py models/auv/inl/mission.toml --missions 60
 
 Start-up is left out: a figure is the difference between a long and a short batch, by the missions between them.
-Overhead is in processor time (workers, the process that feeds them, and the store), so that it is right on a busy
-machine too; scaling is in time by the clock and wants an idle one.
+A bare mission is flown, judged and has its behaviour noted, as in a batch: what a batch adds are draws of the schedule,
+workers, the process that feeds them, and the store. Overhead is in processor time. What else a machine does slows that
+too, so bare missions and batches take turns, in rounds; the middle one of their overheads is told, with the least and
+the greatest. Scaling is in time by the clock and wants an idle machine.
 """
 
 import argparse
@@ -13,8 +15,10 @@ import os
 import resource
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from statistics import median
 
 from checker.batch.store import open_store
 from checker.campaign import Campaign
@@ -44,15 +48,13 @@ def now() -> Spent:
     return Spent(sum(one.ru_utime + one.ru_stime for one in used), time.perf_counter())
 
 
-def bare(campaign: Campaign, missions: int) -> float:
+def bare(fly: Callable[[int], object], seeds: list[int]) -> float:
     """Processor seconds of a mission flown and judged in this process; the first one, flown twice, warms up."""
-    fly = campaign.load(campaign.models.agent)
-    seeds = [mission_seed(campaign.mission.check.seed, number) for number in range(1, missions + 1)]
     fly(seeds[0])
     begun = now()
-    for seed in seeds[SHORT:]:
+    for seed in seeds:
         fly(seed)
-    return (now() - begun).processor / (missions - SHORT)
+    return (now() - begun).processor / len(seeds)
 
 
 def batch(campaign: Campaign, missions: int, workers: int) -> Spent:
@@ -71,23 +73,31 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mission", nargs="?", type=Path, default=MISSION)
     parser.add_argument("--missions", type=int, default=400)
+    parser.add_argument("--rounds", type=int, default=3)
     arguments = parser.parse_args()
     mission, _ = read_mission(arguments.mission)
     assert mission is not None
     models = load_models(mission)
     campaign = Campaign(mission, models, pinned(models))
     count = arguments.missions
-    alone = bare(campaign, count)
-    print(f"{mission.agent.name}: {1000 * alone:.2f} ms of a processor for a bare mission")
-    clock = {}
-    for workers in (1, 2):
-        spent = batch(campaign, count, workers) - batch(campaign, SHORT, workers)
-        each = spent.processor / (count - SHORT)
-        clock[workers] = spent.clock
-        more = 100.0 * (each / alone - 1.0)
-        print(f"with {workers} worker{'s' if workers > 1 else ''}: {1000 * each:.2f} ms, {more:.1f} % more")
+    fly = campaign.load(campaign.models.agent)
+    seeds = [mission_seed(mission.check.seed, number) for number in range(SHORT + 1, count + 1)]
+    alone: list[float] = []
+    each: dict[int, list[float]] = {1: [], 2: []}
+    clock: dict[int, list[float]] = {1: [], 2: []}
+    for _ in range(arguments.rounds):
+        for workers in (1, 2):
+            before = bare(fly, seeds)
+            spent = batch(campaign, count, workers) - batch(campaign, SHORT, workers)
+            alone.append((before + bare(fly, seeds)) / 2)
+            each[workers].append(spent.processor / len(seeds) / alone[-1] - 1.0)
+            clock[workers].append(spent.clock)
+    print(f"{mission.agent.name}: {1000 * median(alone):.2f} ms of a processor for a bare mission")
+    for workers, more in each.items():
+        least, middle, most = (100.0 * one for one in (min(more), median(more), max(more)))
+        print(f"with {workers} worker{'s' if workers > 1 else ''}: {middle:.1f} % more ({least:.1f} to {most:.1f})")
     others = os.getloadavg()[0] if hasattr(os, "getloadavg") else 0.0
-    print(f"scaling on 2 workers: {clock[1] / clock[2]:.2f} (load of the machine: {others:.1f})")
+    print(f"scaling on 2 workers: {median(clock[1]) / median(clock[2]):.2f} (load of the machine: {others:.1f})")
 
 
 if __name__ == "__main__":
