@@ -309,7 +309,8 @@ class _Watch:
         self.shown: bool | None = None  # what the stopping rule came to
         self.sampler = campaign.sampler
         seed = campaign.mission.check.seed
-        self.schedule = Schedule(campaign.models.agent, self.sampler, seed, self.planned, cases, self.results)
+        agent, limits = campaign.models.agent, campaign.mission.check.limits
+        self.schedule = Schedule(agent, self.sampler, seed, self.planned, cases, self.results, limits)
 
     def take(self, result: MissionResult) -> None:
         """Have one more result."""

@@ -5,9 +5,11 @@ the number of workers, and goes on where it ended.
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from checker.batch.result import MissionResult
 from checker.batch.worker import Task
+from checker.losses import Limit
 from checker.oracle import Verdict
 from checker.regression import FlownCase, RegressionCase, agent_of
 from checker.sampling.sampler import MissionRole, SamplePoint, Sampler, Trial, with_point
@@ -43,9 +45,10 @@ class Schedule:
         planned: int,
         cases: Sequence[RegressionCase],
         results: Mapping[int, MissionResult],
+        limits: tuple[tuple[Limit, int], ...] = (),
     ) -> None:
         self._agent, self._sampler, self._seed, self.planned = agent, sampler, seed, planned
-        self._results = results
+        self._results, self._limits = results, limits
         self.points: list[SamplePoint] = []
         self.cases: dict[int, RegressionCase] = {}  # those that are no missions of the run, by their numbers below 0
         self._cases = sorted(cases, key=lambda one: one.is_promoted)  # so that those of the store keep their numbers
@@ -66,7 +69,7 @@ class Schedule:
             tasks = [self.task(number) for number in range(first + 1, len(self.points) + 1)]
             if not self._is_begun:
                 tasks = self._cases_first(tasks)
-            tasks = [task for task in tasks if not self.is_flown(task)]
+            tasks = [replace(task, limits=self._limits) for task in tasks if not self.is_flown(task)]
             if tasks:
                 return tasks
         return []

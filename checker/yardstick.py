@@ -135,7 +135,8 @@ def _measured(
     results: list[MissionResult] = []
     for number, seed in ground.seeds:
         load = partial(load_over, overlay)
-        result = flyer.fly(models.agent, number, seed, load, most_seconds=ground.most_seconds)
+        keeps = bool(ground.mission.check.limits)  # a mission that passes may fail by these
+        result = flyer.fly(models.agent, number, seed, load, keeps_trace=keeps, most_seconds=ground.most_seconds)
         results.append(_judged(ground.mission, result))
         if results[-1].verdict is Verdict.ERROR:
             message = results[-1].judgement.message

@@ -10,8 +10,8 @@ from multiprocessing.connection import Connection
 import runtime.build_form
 from checker.batch.garbage import seldom_collected
 from checker.batch.result import MissionResult, condense, packed
-from checker.losses import losses_of
-from checker.oracle import USER_CODE, Judgement, Verdict, judge
+from checker.losses import Limit, losses_of
+from checker.oracle import USER_CODE, Judgement, Verdict, judge, judge_losses
 from checker.sampling.sampler import RANDOM_POINT, SamplePoint
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import Outcome
@@ -28,14 +28,18 @@ READY = "ready"
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """One mission to fly; `agent` and `load` where they are others than those that the worker was started with."""
+    """One mission to fly; `agent` and `load` where they are others than those that the worker was started with.
+
+    Its trace is kept where it fails, also by `limits` of what it may lose, and where it `keeps_trace` in any case.
+    """
 
     number: int
     seed: int
     agent: AgentConfiguration | None = None
     point: SamplePoint = RANDOM_POINT
-    keeps_trace: bool = False  # though it passes
+    keeps_trace: bool = False
     load: Load | None = None
+    limits: tuple[tuple[Limit, int], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +119,7 @@ def fly_one(fly: Fly, task: Task, *, keep_trace: bool = False) -> MissionResult:
         return error_result(task, f"{type(problem).__name__}: {problem}", traceback.format_exc())
     judgement, losses = judge(outcome), losses_of(outcome)
     keep_trace = keep_trace or task.keeps_trace
-    if judgement.verdict is Verdict.PASS and not keep_trace:
+    if judge_losses(judgement, losses, task.limits).verdict is Verdict.PASS and not keep_trace:
         outcome = condense(outcome)
     else:
         keep_trace = True

@@ -32,6 +32,7 @@ from checker.proofs.places import text_of
 from checker.sampling.sampler import with_point
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.events import single_events
 from runtime.executive.outcome import ElementKind
 
 
@@ -89,16 +90,25 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     graph = Dependence(world.programs, sites)
     sites_reached = Universe(world.programs).sites
     exercised = [site.span for number, site in enumerate(sites_reached) if number in missions.exercised]
-    conflict = failed_by(outcome).conflict
-    is_level = conflict is not None and any(one.kind is ElementKind.RESOURCE for one in conflict.elements)
-    is_late = (outcome.abort is not None or bool(outcome.open_goals)) and not is_level
-    usage = usage_of(sites, passing=missions.passing, is_late=is_late)
+    usage = usage_of(sites, passing=missions.passing, is_late=is_late(missions.failed[0]))
     models = {each.model: program for each, program in zip(world.agent.reactors, world.programs, strict=True)}
     text = text_of(world.agent, models)
     candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties, exercised, text)
     last = mission_lines(world.mission, outcome) if world.mission is not None else ()
     trials = try_out(candidates, missions, usage, partial(_fly, world), bounds, last, graph.beside)
     return replace(trials, loose=loose_ends(graph, candidates, usage))
+
+
+def is_late(failed: MissionResult) -> bool:
+    """Whether a mission failed, or lost more than it may, as something took too long, not as a level was wrong."""
+    outcome = failed.outcome
+    assert outcome is not None
+    conflict = failed_by(outcome).conflict
+    if failed.judgement.exceeded is not None:
+        conflict = next((one.conflict for one in single_events(outcome.events) if one.conflict is not None), None)
+    is_level = conflict is not None and any(one.kind is ElementKind.RESOURCE for one in conflict.elements)
+    is_lost = outcome.abort is not None or bool(outcome.open_goals) or failed.judgement.exceeded is not None
+    return is_lost and not is_level
 
 
 def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult, most_seconds: float) -> MissionResult:
@@ -109,5 +119,6 @@ def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult, most_seconds
         agent = agent_with(world.mission, agent, edit)
     load = partial(load_over, overlay, tells_on=False)
     agent = with_point(agent, mission.point)
-    result = world.flyer.fly(agent, mission.number, mission.seed, load, most_seconds=most_seconds)
+    keeps = bool(world.limits)  # a mission that passes may fail by these
+    result = world.flyer.fly(agent, mission.number, mission.seed, load, keeps_trace=keeps, most_seconds=most_seconds)
     return replace(result, judgement=judge_losses(result.judgement, result.losses, world.limits))

@@ -2,7 +2,7 @@
 
 Each model of `unseen` that has a `faults.toml` was written with its faults for this: nine were looked at while rules
 were made (ward, theatre, orchard; brewery, apron, lab; canal, bakery, icecore), three are only measured (laundry,
-quarry, tram).
+quarry, tram). Four are of somebody who knew the docs alone (greenhouse, cablecar, drill, papermill).
 """
 
 import sys

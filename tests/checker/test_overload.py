@@ -1,4 +1,4 @@
-"""A token that alone overloads a resource: the lines that say so are candidates, and the story tells it."""
+"""A token that alone overloads a resource, and missions that lose more than they may: candidates, stories, traces."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -11,10 +11,11 @@ from checker.causes import failed_by
 from checker.counterfactual.candidates import candidates_of
 from checker.counterfactual.damage import is_farther
 from checker.counterfactual.dependence import Dependence
-from checker.counterfactual.search import sites_in
-from checker.losses import GoalEnd, GoalFate, Losses
+from checker.counterfactual.search import is_late, sites_in
+from checker.losses import Exceeded, GoalEnd, GoalFate, Limit, Losses
 from checker.mission import read_mission
 from checker.models import ModelSet, load_models
+from checker.oracle import Verdict
 from checker.pinned import pinned
 from checker.proofs.places import text_of
 from checker.rendering import step_text
@@ -66,16 +67,20 @@ mandatory = true
 MANAGERS = ("ResourceThreatManager", "ThreatManager", "OpenConditionManager", "UnboundVariableManager")
 
 
-@pytest.fixture(scope="module")
-def flown(tmp_path_factory: pytest.TempPathFactory) -> tuple[ModelSet, MissionResult]:
-    folder = tmp_path_factory.mktemp("oven")
+def loaded(folder: Path, mission_text: str) -> ModelSet:
+    """The models of a mission, written into a folder."""
     (folder / "oven.nddl").write_text(MODEL, encoding="utf-8")
     managers = "".join(f'[[manager]]\ncomponent = "{name}"\n' for name in MANAGERS)
     (folder / "cook.toml").write_text(managers, encoding="utf-8")
-    (folder / "mission.toml").write_text(MISSION, encoding="utf-8")
+    (folder / "mission.toml").write_text(mission_text, encoding="utf-8")
     mission, _ = read_mission(folder / "mission.toml")
     assert mission is not None
-    models = load_models(mission)
+    return load_models(mission)
+
+
+@pytest.fixture(scope="module")
+def flown(tmp_path_factory: pytest.TempPathFactory) -> tuple[ModelSet, MissionResult]:
+    models = loaded(tmp_path_factory.mktemp("oven"), MISSION)
     return models, fly_one(pinned(models)(models.agent), Task(1, 1), keep_trace=True)
 
 
@@ -97,6 +102,25 @@ def test_the_story_tells_which_resource_leaves_no_choice(flown: tuple[ModelSet, 
     story = tell(result, models.agent, models.influence, None, text_of(models.agent, models.programs))
     told = [step_text(step, story) for step in story.steps]
     assert any(one.startswith("`bus` might be used too much at ") for one in told)
+
+
+def test_the_trace_of_a_mission_that_fails_by_a_limit_is_kept(tmp_path: Path) -> None:
+    models = loaded(tmp_path, MISSION.replace("mandatory = true\n", ""))
+    fly = pinned(models)(models.agent)
+    for most, is_kept in ((1, False), (0, True)):
+        result = fly_one(fly, Task(1, 1, limits=((Limit.REJECTED, most),)))
+        assert result.verdict is Verdict.PASS  # the limits of [check] are applied to what is stored
+        assert result.outcome is not None
+        assert (result.has_trace, bool(result.outcome.events)) == (is_kept, is_kept)
+
+
+def test_a_mission_that_loses_more_than_it_may_is_late(flown: tuple[ModelSet, MissionResult]) -> None:
+    _, result = flown
+    assert result.outcome is not None
+    ended = replace(result, outcome=replace(result.outcome, open_goals=()))
+    assert not is_late(ended)
+    repaired = replace(ended, judgement=replace(ended.judgement, exceeded=Exceeded(Limit.REPAIRS, 2, 0)))
+    assert is_late(repaired)
 
 
 def test_a_mission_that_gives_a_goal_up_has_come_no_farther(flown: tuple[ModelSet, MissionResult]) -> None:
