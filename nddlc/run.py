@@ -22,6 +22,7 @@ from nddlc.inputs import mission_here, write_text
 from nddlc.one_mission import prepare, values_of
 from nddlc.trust import trust_option
 from runtime.executive.clocks import clock_of
+from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, OpenGoal
 from runtime.executive.rendering import event_text, goal_text
@@ -73,7 +74,7 @@ def command(
         write_text(log, clock_log(clock, agent.tick))
     if trace is not None:
         write_text(trace, trace_text(flight, file, trace))
-    say(_report(mission.agent.name, flight))
+    say(_report(mission.agent, flight))
     if isinstance(clock, RealTimeClock):
         say(f"  a tick of {agent.tick:g} s began {clock.latest:.3g} s late at most\n")
     return _PASS if flight.judgement.verdict is Verdict.PASS else _FAIL
@@ -84,8 +85,9 @@ def _progress(text: str) -> None:
         click.echo(f"\r\x1b[K{text}", nl=False, err=True)
 
 
-def _report(name: str, flight: Flight) -> str:
+def _report(agent: AgentConfiguration, flight: Flight) -> str:
     """The Gantt of what happened, what was given up and repaired, and the outcome."""
+    name = agent.name
     outcome, judgement = flight.outcome, flight.judgement
     lines = [gantt(outcome, columns() or WIDTH)]
     events = single_events(outcome.events)
@@ -106,6 +108,11 @@ def _report(name: str, flight: Flight) -> str:
         f"rejected {counts[EventKind.REJECT]}{f' ({back} came back)' if back else ''}, "
         f"refused {counts[EventKind.REFUSE]}, recalled {counts[EventKind.RECALL]}; repairs {counts[EventKind.RELAX]}\n"
     )
+    if outcome.abort is None and outcome.last_tick < agent.final_tick:
+        awaited = len(agent.goals) - done - len(outcome.open_goals)
+        goals = f"; {awaited} of its goals may still be achieved" if awaited > 0 else ""
+        cut = f"flown to tick {outcome.last_tick} only, and judged as far"
+        lines.append(f"  {cut}: the mission ends at {agent.final_tick}{goals}\n")
     lines += [f"  open: {goal_text(goal)}{_so_far(goal, outcome.events)}\n" for goal in outcome.open_goals]
     if judgement.verdict is not Verdict.PASS:
         places = [one.place for one in lines_that_rule_out(failed_by(outcome)) if one.place is not None]

@@ -315,7 +315,7 @@ class PlanReactor(TeleoReactor):
         self.steps_made += 1
         outcome = self.planner.deliberate(tick, min(tick + self.reach, self.final_tick))
         if outcome != EPISODE_DONE:
-            self.decisions_made += 1  # that nothing is left to decide for is a step, too
+            self.decisions_made += 1  # to find no plan, or none deep enough, took a step, too
         if outcome == EPISODE_MOVED:
             return True
         if outcome == EPISODE_DONE:

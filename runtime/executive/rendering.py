@@ -1,6 +1,7 @@
 """Words for what happens in a mission: an event, reason or conflict in, one line out. Nobody else words them."""
 
 import json
+from sys import float_info
 from typing import Any
 
 from compiler.program import DomainConstant
@@ -81,6 +82,8 @@ def _draw_text(draw: Draw) -> str:
 
 
 def _bound(value: float | int) -> str:
+    if abs(value) < float_info.min:
+        return repr(type(value)(0))  # an open bound next to zero
     return "+inf" if value >= HALF_INF else "-inf" if value <= -HALF_INF else repr(value)
 
 

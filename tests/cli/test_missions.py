@@ -174,6 +174,14 @@ def test_what_takes_turns_is_told_once_each() -> None:
     assert sorts_of([first, second, other, first]) == [[first], [second], [other], [first]]
 
 
+def test_a_flight_that_was_cut_says_what_may_still_come(mission: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    _, whole = flown(capsys, "run", str(mission))
+    assert "flown to tick" not in whole
+    _, shown = flown(capsys, "run", str(mission), "--until", "2")
+    assert "  flown to tick 2 only, and judged as far: the mission ends at " in shown
+    assert " of its goals may still be achieved" in shown
+
+
 def test_a_goal_that_came_back_is_not_counted_as_lost(capsys: pytest.CaptureFixture[str]) -> None:
     _, shown = flown(capsys, "run", str(CASES / "rejected_request_comes_back/mission.toml"))
     assert "goals achieved 1, open 0; requests between reactors 2, rejected 1 (1 came back), refused 0" in shown

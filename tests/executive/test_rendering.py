@@ -17,6 +17,12 @@ Lamp lamp = new Lamp(Internal); close();
 """
 
 
+def test_a_bound_next_to_zero_is_zero() -> None:
+    n, m = DomainConstant("float", "float", (-5e-324, 4.0), None), DomainConstant("int", "int", (0, 3), None)
+    event = Event(1, Phase.DISPATCH, EventKind.REQUEST, "a", "lamp", "On", (("n", n), ("m", m)), request=1)
+    assert "On(n=[0.0 4.0], m=[0 3])" in event_text(event)
+
+
 def test_a_trace_is_json_lines_with_typed_fields() -> None:
     goals = (
         GoalConfiguration("lamp", "On", start=(3, 5), parameters=(("n", (1, 4)),)),

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from math import inf
+from sys import float_info
 
 from compiler.program import TOKEN_VARIABLES
 from runtime.constraints.domains.tags import FLAG_VALUES, HALF_INF, KIND_FLOAT, KIND_INT
@@ -180,4 +181,6 @@ def _number(x: float, kind: int) -> float | int:
     """A bound as the model would write it; infinite where the engine counts it as infinite."""
     if abs(x) >= HALF_INF:
         return wide(x)
-    return float(x) if kind == KIND_FLOAT else int(x)
+    if kind == KIND_FLOAT:
+        return float(x) if abs(x) >= float_info.min else 0.0  # an open bound next to zero
+    return int(x)
