@@ -25,6 +25,7 @@ from checker.models import load_models
 from checker.pinned import pinned
 from checker.sampling.seeds import mission_seed
 from runtime.executive.mission import record_mission
+from runtime.executive.outcome import Outcome
 
 MODELS = Path(__file__).resolve().parent.parent / "models"
 GPS, INL = MODELS / "gps/mission.toml", MODELS / "auv/inl/mission.toml"
@@ -57,17 +58,15 @@ def measure(file: Path, missions: int) -> MissionFigures:
     for seed in seeds:
         record_mission(agent, programs, seed)
     flown = time.process_time() - begun
-    outcomes = [fly_programs(agent, programs, seed) for seed in seeds]
+    figures = [_figures(fly_programs(agent, programs, seed)) for seed in seeds]  # no batch keeps its outcomes
     judged = time.process_time() - begun - flown
-    return MissionFigures(
-        build_form(),
-        missions,
-        sum(outcome.abort is not None for outcome in outcomes),
-        sum(len(outcome.events) for outcome in outcomes),
-        missions / judged,
-        missions / flown,
-        sum(outcome.last_tick for outcome in outcomes) / judged,
-    )
+    failed, events, ticks = (sum(column) for column in zip(*figures, strict=True))
+    return MissionFigures(build_form(), missions, failed, events, missions / judged, missions / flown, ticks / judged)
+
+
+def _figures(outcome: Outcome) -> tuple[int, int, int]:
+    """Whether a mission failed, its events, its ticks."""
+    return int(outcome.abort is not None), len(outcome.events), outcome.last_tick
 
 
 def memory(file: Path) -> list[tuple[int, float]]:
