@@ -1,5 +1,6 @@
 """`nddlc run`: fly one mission, show what happened, and say how it ended."""
 
+import re
 import sys
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -11,6 +12,7 @@ import click
 
 from checker.causes import failed_by, lines_that_rule_out, missed_after
 from checker.clock_table import clock_log
+from checker.excerpts import Excerpts
 from checker.happened import WIDTH, gantt
 from checker.mission import LARGEST_SEED
 from checker.one_flight import Flight, FlightSettings, fly, trace_text
@@ -118,10 +120,20 @@ def _report(agent: AgentConfiguration, flight: Flight) -> str:
         places = [one.place for one in lines_that_rule_out(failed_by(outcome)) if one.place is not None]
         if places:
             lines.append("  these lines together rule out what was wanted; it breaks at the first:\n")
-        lines += [f"    {one.file}:{one.line}:{one.column}: {one.text}\n" for one in places[:_MOST_LINES]]
+        excerpts = Excerpts(Path(agent.root))
+        lines += [
+            f"    {one.file}:{one.line}:{one.column}: {_with_message(one.text, excerpts.line(one))}\n"
+            for one in places[:_MOST_LINES]
+        ]
         lines += [f"    and {len(places) - _MOST_LINES} more\n"] if len(places) > _MOST_LINES else []
         lines.append("  what to change: `nddlc check` tries it out, `nddlc explain` then tells how it came\n")
     return "".join(lines)
+
+
+def _with_message(statement: str, line: str) -> str:
+    """A statement, with the message that its line of the model gives it (`people <= SEATS : "the car is full"`)."""
+    found = re.search(re.escape(statement) + r'\s*:\s*"[^"]*"', line)
+    return found[0] if found is not None else statement
 
 
 def sorts_of(events: Iterable[Event]) -> list[list[Event]]:

@@ -167,6 +167,18 @@ def test_a_broken_property_is_named(mission: Path, capsys: pytest.CaptureFixture
     assert "  the property `never on a leg` is violated at tick " in shown
 
 
+def test_the_message_of_a_line_is_told_with_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run(["new", "retry", "--template", "retry"]) == 0
+    model = Path("retry/planner.nddl")
+    model.write_text(model.read_text().replace("ATTEMPTS = 3;", "ATTEMPTS = 1;"))
+    capsys.readouterr()
+    assert run(["run", "retry/mission.toml", "--seed", "6"]) == 1
+    assert 'attempt < ATTEMPTS : "no attempt is left"\n' in capsys.readouterr().out
+
+
 def test_what_takes_turns_is_told_once_each() -> None:
     first, second = (Event(1, Phase.REPAIR, EventKind.RELAX, one) for one in ("a", "b"))
     other = Event(1, Phase.REPAIR, EventKind.REJECT, "a")
