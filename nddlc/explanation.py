@@ -133,10 +133,14 @@ def _told_of_log(
     departure: Departure | None = first_departure(log, lines, events)
     if departure is not None:
         told.append(
-            f"departs from the log at tick {departure.tick}: `{departure.timeline}` began to hold"
-            f" {departure.logged or 'nothing else'} there, and {departure.flown or 'nothing else'} now"
+            f"departs from the log at tick {departure.tick}, on `{departure.timeline}`: in the log"
+            f" {_begun(departure.logged)} then, in this flight {_begun(departure.flown)}"
         )
     return tuple(told)
+
+
+def _begun(predicate: str) -> str:
+    return f"{predicate} begins" if predicate else "nothing begins"
 
 
 def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
