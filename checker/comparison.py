@@ -1,9 +1,21 @@
 """Two runs on common seeds in, what changed between them out: missions that flipped, McNemar's exact test."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from checker.statistics import DIGITS, Interval, exact_interval, mcnemar
+
+
+class Lost(NamedTuple):
+    """What missions cost: repairs of plans, goals given up (late ones among them), requests that were not delivered."""
+
+    repairs: int = 0
+    goals: int = 0
+    undelivered: int = 0
+
+
+_NOTHING_LOST = Lost()
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,6 +27,7 @@ class Trialled:
     code: str
     reason: str
     is_random: bool = True
+    lost: Lost = _NOTHING_LOST
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +60,8 @@ class Comparison:
     counted: int
     change: float | None
     interval: Interval | None
+    lost_before: Lost = _NOTHING_LOST
+    lost_after: Lost = _NOTHING_LOST
 
     @property
     def is_worse(self) -> bool:
@@ -77,7 +92,13 @@ def compare(before: Mapping[Mission, Trialled], after: Mapping[Mission, Trialled
         counted,
         change,
         interval,
+        _together([before[key].lost for key in common]),
+        _together([after[key].lost for key in common]),
     )
+
+
+def _together(lost: Sequence[Lost]) -> Lost:
+    return Lost(*(sum(column) for column in zip(*lost, strict=True)))
 
 
 def _change(flips: tuple[Flip, ...], counted: int, confidence: float) -> tuple[float, Interval] | tuple[None, None]:

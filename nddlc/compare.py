@@ -8,7 +8,8 @@ import click
 from checker.batch.connection import StoreError
 from checker.batch.result import MissionResult, write_record
 from checker.batch.store import RunStore, read_store
-from checker.comparison import Comparison, Mission, Trialled, compare
+from checker.comparison import Comparison, Lost, Mission, Trialled, compare
+from checker.losses import Limit, amount
 from checker.oracle import Verdict
 from checker.rendering import failure_text
 from checker.report.sentences import missions, percent
@@ -21,6 +22,7 @@ from nddlc.inputs import STORE, Unusable
 _SAME, _WORSE = 0, 1
 _SURE = 0.05
 _MOST = 40  # flips that are printed
+_LOST = ("repairs of plans", "goals given up", "requests undelivered")
 
 
 @click.command()
@@ -82,7 +84,9 @@ def _trialled(result: MissionResult) -> Trialled:
     judgement = result.judgement
     text = failure_text(judgement, result.open_goals)
     is_random = result.point.role is MissionRole.RANDOM
-    return Trialled(result.number, result.verdict is Verdict.FAIL, judgement.code, text, is_random)
+    losses = result.losses
+    lost = Lost(losses.repaired, amount(losses, Limit.REJECTED), losses.lost)
+    return Trialled(result.number, result.verdict is Verdict.FAIL, judgement.code, text, is_random, lost)
 
 
 def _reported(path: Path) -> dict[Mission, Trialled]:
@@ -92,7 +96,11 @@ def _reported(path: Path) -> dict[Mission, Trialled]:
         point = write_record(RANDOM_POINT)
         return {
             (int(one["seed"]), point): Trialled(
-                int(one["mission"]), one["verdict"] == "FAIL", str(one["code"]), str(one["reason"])
+                int(one["mission"]),
+                one["verdict"] == "FAIL",
+                str(one["code"]),
+                str(one["reason"]),
+                lost=Lost(one["losses"]["repairs"], len(one["losses"]["rejected"]), one["losses"]["undelivered"]),
             )
             for one in listed
             if one["verdict"] != "ERROR" and one.get("role", "random") == "random"
@@ -111,6 +119,12 @@ def _text(found: Comparison, before: str, after: str, confidence: float) -> str:
         f"McNemar's exact test: p = {found.chance:.3g}",
         f"  {_change_text(found, confidence)}",
     ]
+    changed = [
+        f"{what} {was} -> {now}"
+        for what, was, now in zip(_LOST, found.lost_before, found.lost_after, strict=True)
+        if was != now
+    ]
+    lines += [f"  what they cost: {', '.join(changed)}"] if changed else []
     for one in found.flips[:_MOST]:
         failing = one.after if one.now_fails else one.before
         side = "now fails" if one.now_fails else "no longer fails"
@@ -142,6 +156,8 @@ def _data(found: Comparison, before: str, after: str, confidence: float) -> dict
         "change": found.change,
         "confidence": confidence,
         "interval": None if found.interval is None else list(found.interval),
+        "lost_before": found.lost_before._asdict(),
+        "lost_after": found.lost_after._asdict(),
         "flips": [
             {
                 "seed": one.seed,

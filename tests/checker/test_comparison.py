@@ -89,8 +89,13 @@ def test_two_versions_of_a_model_are_compared(gps: Path, capsys: pytest.CaptureF
     assert (found["failed_before"], found["failed_after"]) == (a["counts"]["fail"], b["counts"]["fail"])
     assert len(found["flips"]) == b["counts"]["fail"] - a["counts"]["fail"]
     assert code == (1 if found["p"] < 0.05 else 0)
+    assert [found[key]["repairs"] for key in ("lost_before", "lost_after")] == [
+        each["losses"]["repairs"] for each in (a, b)
+    ]
+    assert found["lost_before"] != found["lost_after"]
     assert run(["compare", "a/report.json", "b/report.json"]) == code
     assert "McNemar" in (text := capsys.readouterr().out)
+    assert f"what they cost: repairs of plans {a['losses']['repairs']} -> {b['losses']['repairs']}" in text
     assert "compared with itself" not in text
     assert run(["compare", "latest", b["run"]]) == 0
     assert f"`latest` and `{b['run']}` are one and the same run" in capsys.readouterr().out
