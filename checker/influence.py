@@ -4,17 +4,16 @@ A static slice: from the sampled variable through the constraints of the same ru
 It says how a draw acts inside the simulator when the conflict was found in another reactor, whose terms know no draw.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
+from compiler.instructions import all_instructions
 from compiler.program import (
     DURATION,
     END,
     START,
-    Guard,
     Instruction,
     LocalVariable,
-    ObjectLoop,
     Post,
     Program,
     Sample,
@@ -44,7 +43,7 @@ def lines_of_influence(program: Program, parameter: str) -> tuple[InfluenceLine,
     lines: list[InfluenceLine] = []
     for rule in program.rules:
         predicate = rule.predicate.rpartition(".")[2]
-        body = list(_flat(rule.body))
+        body = list(all_instructions(rule.body))
         for instruction in body:
             if isinstance(instruction, Sample) and instruction.parameter == parameter:
                 spans = [instruction.span, *_slice(body, instruction)]
@@ -86,14 +85,3 @@ def _feeds(post: Post, other: Post) -> bool:
 
 def _is_time(operand: object) -> bool:
     return isinstance(operand, TokenVariable) and operand.variable in (DURATION, START, END)
-
-
-def _flat(body: Iterable[Instruction]) -> Iterator[Instruction]:
-    for instruction in body:
-        yield instruction
-        match instruction:
-            case Guard(then=then, otherwise=otherwise):
-                yield from _flat(then)
-                yield from _flat(otherwise)
-            case ObjectLoop(body=inner):
-                yield from _flat(inner)

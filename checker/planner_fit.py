@@ -1,11 +1,12 @@
 """Hold what planners ask for against who does it: requests that nobody takes, uses of resources that nobody orders."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 from checker.codes import NO_REQUESTS, NO_THREATS
 from checker.judge.resources import resources_of
 from checker.mission import Mission
-from compiler.program import Child, Guard, Instruction, ObjectLoop, Program
+from compiler.instructions import all_instructions
+from compiler.program import Child, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note
 from runtime.executive.outlines import forms_of
 from runtime.solver.configuration.configuration import Configuration, default_configuration, with_resources
@@ -42,8 +43,12 @@ def vain_requests(mission: Mission, number: int, program: Program, modes: Mappin
     reactor = mission.agent.reactors[number]
     owners = {timeline: one for one in mission.agent.reactors for timeline in one.internal}
     past = {program.predicates[each].name for each in forms_of(program).looked_back}
-    asked = {child.predicate.rpartition(".")[0]: child for rule in program.rules for child in _children(rule.body)
-             if child.predicate not in past}  # fmt: skip
+    asked = {
+        child.predicate.rpartition(".")[0]: child
+        for rule in program.rules
+        for child in all_instructions(rule.body)
+        if isinstance(child, Child) and child.predicate not in past
+    }
     classes = {name: code.type_name for name, code in program.globals if code.kind == "object"}
     for index, timeline in enumerate(reactor.external):
         owner, child = owners.get(timeline), asked.get(classes.get(timeline, ""))
@@ -57,17 +62,3 @@ def vain_requests(mission: Mission, number: int, program: Program, modes: Mappin
             help=f"give `{owner.name}` a `lookahead` of 1, or list `{timeline}` under `observe` if nothing is asked",
             notes=(Note("asked for here", child.span),),
         )
-
-
-def _children(body: Iterable[Instruction]) -> Iterator[Child]:
-    """The children that a body and its branches make."""
-    for step in body:
-        match step:
-            case Child():
-                yield step
-            case Guard(then=then, otherwise=otherwise):
-                yield from _children((*then, *otherwise))
-            case ObjectLoop(body=inner):
-                yield from _children(inner)
-            case _:
-                pass

@@ -8,9 +8,9 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from checker.counterfactual.instructions import flat
 from checker.influence import InfluenceLine, line_of
 from checker.names import relative_name
+from compiler.instructions import all_instructions
 from compiler.program import (
     FIRST_PARAMETER,
     TOKEN_TIMES,
@@ -93,7 +93,7 @@ def who_chose(
     asked = [one for one in events if one.kind is EventKind.REQUEST and one.predicate == wanted]
     if not asked or (sender := programs.get(asked[-1].reactor)) is None:
         return None
-    steps = [step for rule in sender.rules for step in flat(rule.body) if isinstance(step, Child)]
+    steps = [step for rule in sender.rules for step in all_instructions(rule.body) if isinstance(step, Child)]
     spans = dict.fromkeys(step.span for step in steps if step.predicate == predicate)
     if not spans or any(isinstance(one, NewToken) and one.predicate == predicate for one in sender.script):
         return None
@@ -128,7 +128,7 @@ def _asking(
 ) -> tuple[list[InfluenceLine], list[str]]:
     """The lines of a rule that say what a parameter of a child is, and the own parameters that this comes from."""
     predicate, name = wanted
-    body = list(flat(rule.body))
+    body = list(all_instructions(rule.body))
     at = _position(program, predicate, name)
     children = {step.slot for step in body if isinstance(step, Child) and step.predicate == predicate}
     reached: set[Operand] = {TokenVariable(slot, at) for slot in children} if at >= 0 else set()
@@ -170,7 +170,7 @@ def _numbers(program: Program) -> Iterator[tuple[Operand, float]]:
             if lower == upper:
                 yield target, float(lower)
     for rule in program.rules:
-        for each in flat(rule.body):
+        for each in all_instructions(rule.body):
             for one in each.operands if isinstance(each, Post) else ():
                 if isinstance(one, Constant) and one.domain.interval is not None:
                     lower, upper = one.domain.interval

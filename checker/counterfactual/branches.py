@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 
 from checker.counterfactual.dependence import Dependence, LooseEnd
-from checker.counterfactual.instructions import flat
+from compiler.instructions import all_instructions
 from compiler.program import Child, Guard, Instruction, RuleCode
 from nddl_lang.text.source import Span
 
@@ -18,7 +18,7 @@ def uneven_branches(graph: Dependence) -> list[LooseEnd]:
     found: dict[LooseEnd, None] = {}
     for program in graph.programs:
         for rule in program.rules:
-            for guard in (step for step in flat(rule.body) if isinstance(step, Guard)):
+            for guard in (step for step in all_instructions(rule.body) if isinstance(step, Guard)):
                 sites = [one for one in graph.at_span(guard.span) if not graph.sites[one].is_rule]
                 for name in sorted(set(_uneven(guard, rule, graph))) if sites else ():
                     found[LooseEnd(sites[0], name, is_local=True, is_uneven=True)] = None
@@ -31,18 +31,18 @@ def _uneven(guard: Guard, rule: RuleCode, graph: Dependence) -> Iterator[str]:
         return  # nothing is said of the other case
     elsewhere = {name for name, _, _ in _said(_outside(rule, guard), graph)}
     for one, other in (branches, branches[::-1]):
-        own = {step.label for step in flat(one) if isinstance(step, Child)}
-        there = _said([step.span for step in flat(other)], graph)
+        own = {step.label for step in all_instructions(one) if isinstance(step, Child)}
+        there = _said([step.span for step in all_instructions(other)], graph)
         known = elsewhere | {name for name, _, same in there for name in (name, same)}
-        for name, sign, same in _said([step.span for step in flat(one)], graph):
+        for name, sign, same in _said([step.span for step in all_instructions(one)], graph):
             is_moment = sign != "==" and _MOMENT.fullmatch(name) is not None  # a deadline, which one branch may have
             if not is_moment and not known & {name, same} and name.partition(".")[0] not in own:
                 yield name
 
 
 def _outside(rule: RuleCode, guard: Guard) -> list[Span]:
-    inside: set[Instruction] = {*flat(guard.then), *flat(guard.otherwise)}
-    return [step.span for step in flat(rule.body) if step not in inside and not isinstance(step, Guard)]
+    inside: set[Instruction] = {*all_instructions(guard.then), *all_instructions(guard.otherwise)}
+    return [step.span for step in all_instructions(rule.body) if step not in inside and not isinstance(step, Guard)]
 
 
 def _said(spans: list[Span], graph: Dependence) -> set[tuple[str, str, str]]:

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from compiler.program import Child, Guard, Instruction, ObjectLoop, Program, Relate, RuleCode
+from compiler.instructions import all_instructions
+from compiler.program import Child, Program, Relate, RuleCode
 
 _SHARED = "AgentTimeline"
 
@@ -17,25 +18,12 @@ def is_shared(owner: str | None, program: Program) -> bool:
 
 def pairs_in(rule: RuleCode) -> Iterator[tuple[str, str]]:
     """The predicates of the tokens that a rule relates in time, in pairs."""
-    steps = list(flat(rule.body))
+    steps = list(all_instructions(rule.body))
     tokens = {0: rule.predicate} | {step.slot: step.predicate for step in steps if isinstance(step, Child)}
     for step in steps:
         match step:
             case Child(slot=target, origin=origin) | Relate(target=target, origin=origin):
                 if origin in tokens and target in tokens:
                     yield tokens[origin], tokens[target]
-            case _:
-                pass
-
-
-def flat(body: tuple[Instruction, ...]) -> Iterator[Instruction]:
-    """All instructions of a body, those of its branches included."""
-    for step in body:
-        yield step
-        match step:
-            case Guard(then=then, otherwise=otherwise):
-                yield from flat((*then, *otherwise))
-            case ObjectLoop(body=inner):
-                yield from flat(inner)
             case _:
                 pass

@@ -3,7 +3,7 @@
 from collections import defaultdict
 from collections.abc import Iterator
 
-from checker.counterfactual.instructions import flat
+from compiler.instructions import all_instructions
 from compiler.program import (
     DURATION,
     END,
@@ -70,7 +70,7 @@ class Links:
         """
         statements: dict[Key, set[int]] = defaultdict(set)
         declared: dict[Key, tuple[Span, str]] = {}
-        steps = list(flat(rule.body))
+        steps = list(all_instructions(rule.body))
         children = {0: rule.predicate} | {step.slot: step.predicate for step in steps if isinstance(step, Child)}
         marked = {slot: f"{predicate}#{slot}" for slot, predicate in children.items()}
         events = {slot for slot, predicate in children.items() if self._is_event(predicate)}

@@ -20,7 +20,7 @@ from checker.judge.bulk_meanings import (
 )
 from checker.judge.bulk_relating import row_child, row_relate
 from checker.judge.columns import FLOAT, INT, TEXT, Column, Mask, column_of, distinct, unknown
-from checker.judge.functions import COMPUTED
+from checker.judge.functions import COMPUTED, result_index
 from checker.judge.meanings import Meaning
 from checker.judge.operands import VariableNames, domain_value
 from checker.judge.solving import solver
@@ -261,7 +261,7 @@ def _solved(name: str, index: int, count: int) -> Callable[[list[Column], RowFra
             return Column(INT, holds.astype(float))
 
         return told
-    if name in COMPUTED and index == (0 if COMPUTED[name][0] == 0 else count - 1):
+    if name in COMPUTED and index == result_index(name, count):
         return lambda columns, frame: value_of(name, columns)
     if name in ("eq", "concurrent") and count == 2:
         return lambda columns, frame: columns[0]

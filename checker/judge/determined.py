@@ -1,6 +1,6 @@
 """Tell what a constraint determines: a value that it leaves no choice for must have been fixed in an executed plan."""
 
-from checker.judge.functions import COMPUTED
+from checker.judge.functions import result_index
 from checker.judge.operands import BodyFrame, VariableNames
 from checker.judge.solving import PartRange, solver
 from checker.judge.values import ENDLESS, UNKNOWN, is_open
@@ -20,9 +20,7 @@ class Determined:
         self.slots = [operand.slot if isinstance(operand, LocalVariable) else -1 for operand in post.operands]
         self.solvers = [solver(post.name, k, len(post.operands)) for k in range(len(post.operands))]
         self.is_equality = post.name in _EQUALITIES
-        self.index = -1
-        if post.name in COMPUTED:
-            self.index = 0 if COMPUTED[post.name][0] == 0 else len(post.operands) - 1
+        self.index = result_index(post.name, len(post.operands))
 
     def infer(self, frame: BodyFrame, values: list[Value]) -> None:
         """Give a local variable that nobody knows the value that the others determine."""

@@ -146,3 +146,10 @@ def reach(function: Callable[..., float], inputs: tuple[Value, ...]) -> tuple[fl
 def has_open(values: tuple[Value, ...]) -> bool:
     """Whether a value was never fixed."""
     return any(isinstance(each, tuple) for each in values)
+
+
+def result_index(name: str, count: int) -> int:
+    """Which of the arguments of a function is its result; -1 if it is no function."""
+    if name not in COMPUTED:
+        return -1
+    return 0 if COMPUTED[name][0] == 0 else count - 1

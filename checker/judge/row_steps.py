@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from checker.judge.bodies import StepMaker, Written, compile_body
 from checker.judge.columns import FLOAT, INT, TEXT
-from checker.judge.functions import COMPUTED
+from checker.judge.functions import COMPUTED, result_index
 from checker.judge.meanings import Meaning
 from checker.judge.operands import VariableNames, domain_value
 from checker.judge.relations import Demand, demands
@@ -182,7 +182,7 @@ def _check(post: Post, meaning: Meaning, names: VariableNames) -> RowWrite:
             need_numbers(values[:1])
             writer.code.emit(op.ALIKE, 0, values[0].register, written_truth(writer, name, values[1:]).register)
         elif name in COMPUTED:
-            index = 0 if COMPUTED[name][0] == 0 else len(values) - 1
+            index = result_index(name, len(values))
             found = written_value(writer, name, [*values[:index], *values[index + 1 :]], is_part=False)
             need_numbers([values[index]])
             need_equal(writer, values[index], found)
@@ -207,7 +207,7 @@ def _define(post: Post, index: int, slot: int, names: VariableNames) -> RowWrite
         values = [read(writer) for read in others]
         if name in ROW_TRUTHS and index == 0:
             found = written_truth(writer, name, values)
-        elif name in COMPUTED and index == (0 if COMPUTED[name][0] == 0 else count - 1):
+        elif name in COMPUTED and index == result_index(name, count):
             found = written_value(writer, name, values, is_part=True)
         elif name in ("eq", "concurrent") and count == 2:
             found = values[0]

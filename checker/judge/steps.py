@@ -6,7 +6,7 @@ from functools import partial
 from checker.judge.bench import Bench
 from checker.judge.bodies import StepMaker, Written, compile_body
 from checker.judge.determined import Determined
-from checker.judge.functions import COMPUTED
+from checker.judge.functions import COMPUTED, result_index
 from checker.judge.meanings import Meaning, equal, is_true
 from checker.judge.operands import BodyFrame, Read, VariableNames, domain_value, is_range, reader
 from checker.judge.relating import CUT_OFF, LEFT_OPEN, Step, child_step, relate_step
@@ -281,7 +281,7 @@ def _refuse(
     named = [(names.of(operand), value) for operand, value in zip(post.operands, values, strict=True)]
     frame.bench.judged += 1
     if post.name in COMPUTED:
-        index = 0 if COMPUTED[post.name][0] == 0 else len(values) - 1
+        index = result_index(post.name, len(values))
         solve = solver(post.name, index, len(values))
         if solve is not None:
             named.append(("computed", solve(*values[:index], *values[index + 1 :])))

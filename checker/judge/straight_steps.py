@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from checker.judge.bodies import StepMaker, Written, compile_body
 from checker.judge.columns import FLOAT, INT, TEXT
-from checker.judge.functions import COMPUTED
+from checker.judge.functions import COMPUTED, result_index
 from checker.judge.meanings import Meaning
 from checker.judge.operands import VariableNames, domain_value
 from checker.judge.relations import Demand, demands
@@ -115,13 +115,6 @@ def _need_finite(writer: StraightWriter, values: list[Named]) -> None:
             writer.refuse_if(f"{each.text} - {each.text} != 0")
 
 
-def _result_index(name: str, count: int) -> int:
-    """Which argument of a function is its result; -1 if it is no function."""
-    if name not in COMPUTED:
-        return -1
-    return 0 if COMPUTED[name][0] == 0 else count - 1
-
-
 def _truth(writer: StraightWriter, name: str, values: list[Named]) -> Named | None:
     """The truth of a comparison, or of what truths make together; None where it is asked of its meaning."""
     if any(each.kind == OPEN for each in values):
@@ -151,7 +144,7 @@ def _truth(writer: StraightWriter, name: str, values: list[Named]) -> Named | No
 
 def _check(post: Post, meaning: Meaning, names: VariableNames) -> StraightWrite:
     name, count = post.name, len(post.operands)
-    index = _result_index(name, count)
+    index = result_index(name, count)
 
     def step(writer: StraightWriter) -> None:
         values = [writer.operand(each) for each in post.operands]
@@ -204,7 +197,7 @@ def _define(post: Post, index: int, slot: int, names: VariableNames) -> Straight
             return writer.named(writer.call(solve, values), OPEN)
         _need_finite(writer, values)
         kind = _KINDS.get(name.removesuffix("f"), FLOAT if any(each.kind == FLOAT for each in values) else INT)
-        if name in _SUMS and index == _result_index(name, count):
+        if name in _SUMS and index == result_index(name, count):
             return writer.named(_SUMS[name].join([each.text for each in values]), kind)
         found = writer.named(writer.call(solve, values), kind)
         wanted = "not in (int, bool)" if kind == INT else "not in (float, int)"

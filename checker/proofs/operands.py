@@ -4,7 +4,7 @@ Whole numbers are Int, floats Real with the decimal value that is written; truth
 objects are whole numbers, one per name.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Protocol, assert_never
@@ -13,6 +13,7 @@ import z3
 
 from checker.judge.values import ENDLESS
 from checker.proofs.claims import Claim, Number
+from compiler.instructions import all_instructions
 from compiler.program import (
     FIRST_PARAMETER,
     TOKEN_VARIABLES,
@@ -21,7 +22,6 @@ from compiler.program import (
     DomainConstant,
     Field,
     GlobalVariable,
-    Guard,
     Instruction,
     LocalVariable,
     NewObject,
@@ -270,14 +270,3 @@ def layout_of(body: Sequence[Instruction], own: str | None) -> BodyLayout:
             case _:
                 pass
     return layout
-
-
-def all_instructions(body: Sequence[Instruction]) -> Iterator[Instruction]:
-    """Each instruction of a body, those of branches and loops included."""
-    for each in body:
-        yield each
-        if isinstance(each, Guard):
-            yield from all_instructions(each.then)
-            yield from all_instructions(each.otherwise)
-        elif isinstance(each, ObjectLoop):
-            yield from all_instructions(each.body)

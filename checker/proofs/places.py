@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from checker.names import relative_name
-from checker.proofs.operands import BodyLayout, ProgramNames, all_instructions, layout_of, names_of
+from checker.proofs.operands import BodyLayout, ProgramNames, layout_of, names_of
+from compiler.instructions import all_instructions
 from compiler.program import Instruction, Program
 from nddl_lang.semantics.constraints import CONSTRAINTS
 from runtime.executive.configuration import AgentConfiguration

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import z3
 
-from checker.judge.functions import COMPUTED
+from checker.judge.functions import COMPUTED, result_index
 from checker.proofs.claims import Number, claim_of
 from checker.proofs.operands import rational
 
@@ -18,7 +18,7 @@ def solved(name: str, index: int, numbers: Sequence[Number], unknown: Number) ->
     if name.startswith(("test", "cond")):
         return _tested(name, numbers, index)
     found = _inverse(name, index, numbers)
-    if found is None and name in COMPUTED and index == (0 if COMPUTED[name][0] == 0 else len(numbers) - 1):
+    if found is None and name in COMPUTED and index == result_index(name, len(numbers)):
         found = _function(name, others)
     return None if found is None else _as(found, unknown)
 

@@ -1,11 +1,10 @@
 """Models in, instructions out: what each construct becomes."""
 
-from collections.abc import Iterator
-
 import pytest
 
+from compiler.instructions import all_instructions
 from compiler.lower import compile_model
-from compiler.program import Child, Guard, Instruction, NewVariable, ObjectLoop, Program
+from compiler.program import Child, NewVariable, Program
 from nddl_lang.analysis import analyse_text
 from nddl_lang.syntax.dialect import Dialect
 from tests.compiler.listing import body
@@ -369,20 +368,7 @@ def test_slots_are_dense_and_belong_to_one_thing_each() -> None:
         f"{WORLD}T::a {{ int i; if (x + i == 3) {{ any(b q); int j = q.v; }} else {{ any(b q); int k = x * 2; }} }}\n"
     )
     code = program.rules[0]
-    variables = [each.slot for each in _flat(code.body) if isinstance(each, NewVariable)]
-    tokens = [each.slot for each in _flat(code.body) if isinstance(each, Child)]
+    variables = [each.slot for each in all_instructions(code.body) if isinstance(each, NewVariable)]
+    tokens = [each.slot for each in all_instructions(code.body) if isinstance(each, Child)]
     assert sorted(variables) == list(range(code.slots))
     assert sorted(tokens) == list(range(1, code.tokens))
-
-
-def _flat(code: tuple[Instruction, ...]) -> Iterator[Instruction]:
-    for instruction in code:
-        yield instruction
-        match instruction:
-            case Guard(then=then, otherwise=otherwise):
-                yield from _flat(then)
-                yield from _flat(otherwise)
-            case ObjectLoop(body=inner):
-                yield from _flat(inner)
-            case _:
-                pass
