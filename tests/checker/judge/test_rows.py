@@ -1,6 +1,6 @@
 """What row code says of many tokens is what the judge of single tokens says of each."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import product
 from math import inf
 
@@ -99,14 +99,16 @@ def test_what_plainly_holds_in_a_row_holds_of_the_values(name: str) -> None:
     assert answers > 3
 
 
-@pytest.mark.parametrize("name", [each for each in NAMES if each in COMPUTED or each.startswith("test")])
-def test_a_part_of_an_expression_has_the_value_that_it_has_in_one_run(name: str) -> None:
+Body = list[Post | NewVariable]
+
+
+def parts(name: str, some: Sequence[Value]) -> Iterator[tuple[tuple[Value, ...], Body, Body]]:
+    """Values of a function, a body in which its result is what it is computed to be, and one in which it is not."""
     count = COUNTS.get(name, 3)
     index = 0 if name.startswith("test") or COMPUTED[name][0] == 0 else count - 1
     solve = solver(name, index, count)
     assert solve is not None
-    answers = 0
-    for values in product(SINGLE, repeat=count - 1):
+    for values in product(some, repeat=count - 1):
         if any(isinstance(each, str) or each == inf for each in values):
             continue
         expected = solve(*values)
@@ -114,12 +116,19 @@ def test_a_part_of_an_expression_has_the_value_that_it_has_in_one_run(name: str)
             continue
         operands = [*map(constant, values)]
         operands.insert(index, LocalVariable(0))  # type: ignore[arg-type]
-        part = NewVariable(0, None, TypeCode("float", "float", None), None, None, SPAN)
-        same = Post("eq", (LocalVariable(0), constant(expected)), None, SPAN)
-        answer = told([part, Post(name, tuple(operands), None, SPAN), same])
+        made: Body = [NewVariable(0, None, TypeCode("float", "float", None), None, None, SPAN)]
+        made.append(Post(name, tuple(operands), None, SPAN))
+        same, other = (Post(each, (LocalVariable(0), constant(expected)), None, SPAN) for each in ("eq", "neq"))
+        yield values, [*made, same], [*made, other]
+
+
+@pytest.mark.parametrize("name", [each for each in NAMES if each in COMPUTED or each.startswith("test")])
+def test_a_part_of_an_expression_has_the_value_that_it_has_in_one_run(name: str) -> None:
+    answers = 0
+    for values, same, other in parts(name, SINGLE):
+        answer = told(same)
         assert answer in (None, (True, 1), (False, 0)), values
-        other = Post("neq", (LocalVariable(0), constant(expected)), None, SPAN)
-        assert told([part, Post(name, tuple(operands), None, SPAN), other]) in (None, (False, 0)), values
+        assert told(other) in (None, (False, 0)), values
         answers += answer == (True, 1)
     assert answers > 3
 

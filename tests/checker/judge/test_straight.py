@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from itertools import product
-from math import inf
 
 import pytest
 
@@ -11,15 +10,14 @@ from checker.judge.functions import COMPUTED
 from checker.judge.meanings import MEANINGS
 from checker.judge.operands import VariableNames
 from checker.judge.row_code import UnwrittenError
-from checker.judge.solving import solver
 from checker.judge.straight_code import StraightText, StraightWriter, finish
 from checker.judge.straight_judge import StraightJudge
 from checker.judge.straight_steps import compile_straight
-from compiler.program import LocalVariable, NewVariable, Post, TypeCode
+from compiler.program import NewVariable, Post
 from runtime.executive.record import ReactorRecord, TokenRecord
 from tests.checker.judge.corruption import again
 from tests.checker.judge.missions import MISSIONS
-from tests.checker.judge.test_rows import COUNTS, NAMES, PROGRAM, SINGLE, SPAN, constant
+from tests.checker.judge.test_rows import COUNTS, NAMES, PROGRAM, SINGLE, SPAN, constant, parts
 
 SOME = SINGLE[::2]  # code is written for each row of values
 BENCH = Bench(ReactorRecord("a", 9, (), (), (), ()), 9, lambda parameter, ticks: None)
@@ -52,25 +50,11 @@ def test_what_plainly_holds_of_a_token_holds_of_the_values(name: str) -> None:
 
 @pytest.mark.parametrize("name", [each for each in NAMES if each in COMPUTED or each.startswith("test")])
 def test_a_part_of_an_expression_has_the_value_that_a_run_gives_it(name: str) -> None:
-    count = COUNTS.get(name, 3)
-    index = 0 if name.startswith("test") or COMPUTED[name][0] == 0 else count - 1
-    solve = solver(name, index, count)
-    assert solve is not None
     answers = 0
-    for values in product(SOME, repeat=count - 1):
-        if any(isinstance(each, str) or each == inf for each in values):
-            continue
-        expected = solve(*values)
-        if isinstance(expected, tuple) or expected != expected:
-            continue
-        operands = [*map(constant, values)]
-        operands.insert(index, LocalVariable(0))  # type: ignore[arg-type]
-        part = NewVariable(0, None, TypeCode("float", "float", None), None, None, SPAN)
-        same = Post("eq", (LocalVariable(0), constant(expected)), None, SPAN)
-        answer = told([part, Post(name, tuple(operands), None, SPAN), same])
+    for values, same, other in parts(name, SOME):
+        answer = told(same)
         assert answer in (None, (1, 0)), values
-        other = Post("neq", (LocalVariable(0), constant(expected)), None, SPAN)
-        assert told([part, Post(name, tuple(operands), None, SPAN), other]) is None, values
+        assert told(other) is None, values
         answers += answer == (1, 0)
     assert answers > 2
 
