@@ -1,7 +1,11 @@
-"""Small missions without chance, each with what must come out of it: `cases/` holds one rule per folder."""
+"""Small missions without chance, each with what must come out of it: `cases/` holds one rule per folder.
+
+Each is read once, and flown in every way that must not matter.
+"""
 
 import json
 import math
+import os
 from pathlib import Path
 from typing import Any
 
@@ -12,23 +16,32 @@ from checker.mission import read_mission
 from checker.models import load_models
 from checker.oracle import judge
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.mission import MissionPrograms, run_mission
+from runtime.executive.mission import MissionPrograms, record_mission, run_mission
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import event_data
+from tests.executive.determined_models import told as told_by_both
 from tests.programs import programs_of
 
 HERE = Path(__file__).parent
 CASES = sorted(path.parent for path in HERE.glob("cases/*/expected.json"))
+FEWER = 1 if os.environ.get("NDDLC_CASES") == "all" else 4  # `make cases` has all flown again
 Data = dict[str, Any]
+Loaded = tuple[AgentConfiguration, MissionPrograms]
 
 
-def loaded(folder: Path) -> tuple[AgentConfiguration, MissionPrograms]:
+def loaded(folder: Path) -> Loaded:
     """A mission file, or an agent file of T-REX, its models and its code."""
     (file,) = [*folder.glob("mission.toml"), *folder.glob("agent.xml")]
     mission, found = read_mission(file)
     assert mission is not None, found
-    agent = load_models(mission).agent
-    return agent, programs_of(agent)
+    models = load_models(mission)
+    return models.agent, programs_of(models.agent, models.programs)
+
+
+@pytest.fixture(scope="module", params=CASES, ids=lambda folder: folder.name)
+def case(request: pytest.FixtureRequest) -> tuple[Path, Loaded]:
+    """A folder and what it holds: the scope has all tests of a case run one after another."""
+    return request.param, loaded(request.param)
 
 
 def told(outcome: Outcome) -> list[Data]:
@@ -37,10 +50,9 @@ def told(outcome: Outcome) -> list[Data]:
     return found
 
 
-@pytest.mark.parametrize("folder", CASES, ids=lambda folder: folder.name)
-def test_what_must_come_out_does(folder: Path) -> None:
+def test_what_must_come_out_does(case: tuple[Path, Loaded]) -> None:
+    folder, (agent, programs) = case
     expected = json.loads((folder / "expected.json").read_text())
-    agent, programs = loaded(folder)
     outcome = fly_programs(agent, programs, 1)  # the judge has to agree
     judgement = judge(outcome)
     codes = expected["code"] if isinstance(expected["code"], list) else [expected["code"]]
@@ -69,11 +81,18 @@ def test_what_must_come_out_does(folder: Path) -> None:
 
 
 @pytest.mark.once
-@pytest.mark.parametrize("folder", CASES, ids=lambda folder: folder.name)
-def test_visiting_every_tick_changes_nothing(folder: Path) -> None:
-    agent, programs = loaded(folder)
+def test_no_way_of_flying_changes_anything(case: tuple[Path, Loaded]) -> None:
+    """Register code or the general engine, each tick visited or not, another seed, reactors in stock."""
+    folder, (agent, programs) = case
     one, other = (run_mission(agent, programs, 1, every_tick=every) for every in (False, True))
     assert [brief(event) for event in told(one)] == [brief(event) for event in told(other)]
+    for seed in (1, 2) if agent.parameters else (1,):
+        general, compiled = (run_mission(agent, programs, seed, compiles=way) for way in (False, True))
+        assert told_by_both(compiled) == told_by_both(general)
+    for compiles in (True, False) if folder in CASES[::FEWER] else ():
+        # The next mission finds its reactors as they were loaded: one takes a snapshot, one starts from it.
+        first, *later = (record_mission(agent, programs, 1, compiles=compiles) for _ in range(3))
+        assert all(each == first for each in later)
 
 
 def brief(event: Data) -> tuple[Any, ...]:

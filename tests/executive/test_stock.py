@@ -1,7 +1,7 @@
-"""Reactors are loaded once per process: what a mission leaves behind must not reach the next one."""
+"""Reactors are loaded once per process: what a mission leaves behind must not reach the next one.
 
-import os
-from pathlib import Path
+Each mission of test_cases is flown again for it as well.
+"""
 
 import pytest
 
@@ -16,18 +16,6 @@ from runtime.solver.configuration.configuration import default_configuration
 from tests.executive.flying import flown, planner, simulator
 from tests.executive.test_cases import CASES, loaded
 from tests.executive.test_equal_runs import GOALS, OWNER, USER, toy
-
-FEWER = 1 if os.environ.get("NDDLC_CASES") == "all" else 4  # `make cases` flies all
-
-
-@pytest.mark.once
-@pytest.mark.parametrize("compiles", [True, False], ids=["determined", "general"])
-@pytest.mark.parametrize("folder", CASES[::FEWER], ids=lambda folder: folder.name)
-def test_the_next_mission_finds_its_reactors_as_they_were_loaded(folder: Path, compiles: bool) -> None:
-    agent, programs = loaded(folder)
-    # The first mission loads, the second takes a snapshot, the third starts from it.
-    first, *later = (record_mission(agent, programs, 1, compiles=compiles) for _ in range(3))
-    assert all(each == first for each in later)
 
 
 def test_repairs_of_another_mission_leave_no_trace() -> None:
