@@ -4,9 +4,10 @@ import os
 import sqlite3
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from checker.batch.moved import PLACES, names_of, place_now
 from checker.batch.reading import readable_place
 from checker.batch.write_ahead_log import log_damage
 from nddl_lang.mission_suffixes import MISSION_SUFFIXES
@@ -127,7 +128,7 @@ def connect(place: Path, path: Path) -> sqlite3.Connection:
         check_version(connection, path)
         connection.execute("PRAGMA journal_mode = WAL")
         connection.execute("PRAGMA synchronous = NORMAL")
-        connection.executescript(f"PRAGMA application_id = {_MARK};PRAGMA user_version = {_VERSION};{_SCHEMA}")
+        connection.executescript(f"PRAGMA application_id = {_MARK};PRAGMA user_version = {_VERSION};{_SCHEMA}{PLACES}")
     except (sqlite3.Error, StoreError) as problem:
         if connection is not None:
             connection.close()
@@ -155,17 +156,21 @@ def check_version(connection: sqlite3.Connection, path: Path) -> None:
     raise StoreError(what, "delete it, or keep it and name another with --store")
 
 
-def find_run(connection: sqlite3.Connection, name: str) -> Run | None:
+def find_run(connection: sqlite3.Connection, store: Path, name: str) -> Run | None:
     """The run with that id, or the one that began last: of all for `latest`, of one mission file for its path.
 
-    A unique beginning of an id will do.
+    A unique beginning of an id will do. Where the project was copied with its `store`, the run is of the copy.
     """
     chosen = "SELECT id, mission_file, seed, missions, sampler FROM runs "
     if name == LATEST:
         rows = connection.execute(chosen + "ORDER BY turn DESC LIMIT 1").fetchall()
     elif name.endswith(MISSION_SUFFIXES):
-        query = chosen + "WHERE mission_file = ? ORDER BY turn DESC LIMIT 1"
-        rows = connection.execute(query, (str(Path(name).resolve()),)).fetchall()
+        names = names_of(connection, store, str(Path(name).resolve()))
+        query = chosen + f"WHERE mission_file IN ({', '.join('?' * len(names))}) ORDER BY turn DESC LIMIT 1"
+        rows = connection.execute(query, names).fetchall()
     else:
         rows = connection.execute(chosen + "WHERE substr(id, 1, ?) = ?", (len(name), name)).fetchall()
-    return Run(*rows[0]) if len(rows) == 1 else None
+    if len(rows) != 1:
+        return None
+    run = Run(*rows[0])
+    return replace(run, mission_file=place_now(connection, store, run.mission_file))

@@ -69,7 +69,7 @@ def kept_page(store: Path, name: str, mission: int | None, flights: int) -> str 
     chosen = "SELECT mission, is_first, flights, sources, seal, text FROM explanations WHERE run = ? AND "
     with place_to_read(store) as place, closing(connect(place, store)) as connection:
         try:
-            run = find_run(connection, name)
+            run = find_run(connection, store, name)
             if run is None:
                 return None
             which, wanted = ("is_first", ()) if mission is None else ("mission = ?", (mission,))
@@ -85,4 +85,5 @@ def kept_page(store: Path, name: str, mission: int | None, flights: int) -> str 
         is_true = kept.seal == seal
     except (OSError, ValueError, KeyError, TypeError):  # a file or folder is gone, or the row is damaged
         return None
-    return text if is_true and (shown is None or shown >= flights) else None
+    is_of_run = run.mission_file in kept.sources.files  # not of the project that this one was copied from
+    return text if is_true and is_of_run and (shown is None or shown >= flights) else None

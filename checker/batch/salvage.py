@@ -2,11 +2,12 @@
 
 import sqlite3
 from collections.abc import Iterator
-from contextlib import ExitStack, closing, contextmanager
-from dataclasses import dataclass
+from contextlib import ExitStack, closing, contextmanager, suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from checker.batch.connection import Run, StoreError, check_version, place_to_read
+from checker.batch.moved import place_now
 from checker.batch.store import open_store, result_of
 from checker.batch.write_ahead_log import log_damage
 
@@ -50,13 +51,20 @@ def salvage(path: Path, target: Path) -> StoreDamage:
     found = examine(path)
     with _open(path) as connection, open_store(target) as store:
         for run in _runs(connection):
-            store.begin(run, keep=True)
+            store.begin(_as_it_is_now(connection, path, run), keep=True)
             for number, is_whole in _numbers(connection, run):
                 row = _row(connection, run.id, number) if is_whole else None
                 result = result_of(row) if row is not None else None
                 if result is not None:
                     store.add(run, result)
     return found
+
+
+def _as_it_is_now(connection: sqlite3.Connection, path: Path, run: Run) -> Run:
+    """The run with its mission file where that is now; a store that is older, or damaged there, does not know."""
+    with suppress(sqlite3.Error):
+        return replace(run, mission_file=place_now(connection, path, run.mission_file))
+    return run
 
 
 @contextmanager

@@ -15,12 +15,12 @@ from typing import Any
 from checker.batch.connection import SALVAGE, Run, StoreError, connect, find_run, place_to_read, store_error
 from checker.batch.explanations import Explanation, row_of
 from checker.batch.lock import Locks
+from checker.batch.moved import FOLDER, names_of, note_place
 from checker.batch.result import MissionResult, read_record, write_record
 from checker.oracle import Verdict
 from checker.regression import RegressionCase
 from checker.sampling.sampler import SamplePoint
 
-_FOLDER = ".nddlc"
 _FLUSH_SECONDS = 0.5
 _MOST_FAILURES = 40  # kept of one mission file
 
@@ -62,6 +62,7 @@ class RunStore:
                 "INSERT INTO runs (id, mission_file, seed, missions, sampler) VALUES (?, ?, ?, ?, ?)",
                 (run.id, run.mission_file, run.seed, run.missions, run.sampler),
             )
+            note_place(self._connection, self.path, run.mission_file)
         return kept
 
     def add(self, run: Run, result: MissionResult) -> None:
@@ -93,7 +94,7 @@ class RunStore:
         A unique beginning of an id will do.
         """
         with self._guarded():
-            return find_run(self._connection, name)
+            return find_run(self._connection, self.path, name)
 
     def run_ids(self) -> list[str]:
         """All runs, the latest first."""
@@ -155,8 +156,12 @@ class RunStore:
 
     def failures(self, run: Run) -> tuple[RegressionCase, ...]:
         """The missions that failed in other runs of the same mission file, in the order in which they were kept."""
-        query = "SELECT seed, code, point FROM failures WHERE mission_file = ? AND run != ? ORDER BY turn"
-        rows = self._rows(query, run.mission_file, run.id)
+        with self._guarded():
+            names = names_of(self._connection, self.path, run.mission_file)
+        places = ", ".join("?" * len(names))
+        query = f"SELECT seed, code, point FROM failures WHERE mission_file IN ({places}) AND run != ?"
+        query += " GROUP BY seed, point ORDER BY turn"
+        rows = self._rows(query, *names, run.id)
         return tuple(RegressionCase("", seed, code, read_record(SamplePoint, point)) for seed, code, point in rows)
 
     def close(self) -> None:
@@ -211,7 +216,7 @@ def open_store(path: Path) -> Iterator[RunStore]:
     """Open or make the store at `path`; whatever happens inside, finished missions are written."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        if path.parent.name == _FOLDER and not (path.parent / ".gitignore").exists():
+        if path.parent.name == FOLDER and not (path.parent / ".gitignore").exists():
             (path.parent / ".gitignore").write_text("*\n", encoding="ascii")  # nothing in here is for others
         if path.exists() and not path.is_file():
             raise StoreError(f"`{path}` is no file that a store could be in")
