@@ -46,7 +46,7 @@ INT_RESULT = Code("NDDL552", Severity.WARNING, "lint", "`{name}` is an int: this
 WHOLE_FLOAT = Code("NDDL553", Severity.WARNING, "lint", "EUROPA lets `{name}` take whole numbers only")
 CHAINED = Code("NDDL554", Severity.WARNING, "lint", "`{op}` compares the truth of `{text}`")
 OVER_CAPACITY = Code(
-    "NDDL560", Severity.WARNING, "lint", "`{name}` takes {demand} of `{resource}`, which has {capacity}"
+    "NDDL560", Severity.WARNING, "lint", "`{name}` {moves} {demand} {way} `{resource}`, which {has} {capacity}"
 )
 OVERLOOKED = Code("NDDL561", Severity.WARNING, "lint", "EUROPA overlooks what follows the first {count} of `{name}`")
 DRAWN_IN_VAIN = Code("NDDL562", Severity.WARNING, "lint", "what is drawn for `{name}` is never used")
@@ -58,6 +58,7 @@ OTHER_RANGE = Code(
     "NDDL565", Severity.WARNING, "lint", "`{name}` is drawn into {domain} here, and into {other} elsewhere"
 )
 BEYOND_FLOATS = Code("NDDL566", Severity.WARNING, "lint", "`{text}` counts as infinite: floats end at 2.25e15")
+BEGINS_OUTSIDE = Code("NDDL567", Severity.WARNING, "lint", "`{resource}` has {first} at first, {what}, {limit}")
 ESCAPE = Code("NDDL570", Severity.INFO, "lint", "`{text}` is two characters, not one: escapes are not decoded")
 OTHER_RELATION = Code("NDDL571", Severity.INFO, "lint", "EUROPA understands `{name}` otherwise")
 NO_FILTER = Code("NDDL572", Severity.INFO, "lint", "`filter` has no effect")

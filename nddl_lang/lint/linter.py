@@ -20,8 +20,9 @@ from nddl_lang.lint.numbers import (
 )
 from nddl_lang.lint.part import Conditional, Finding, Part, PartLint
 from nddl_lang.lint.portability import lint_filters, lint_includes, lint_portability, lint_texts
+from nddl_lang.lint.resources import lint_resources
 from nddl_lang.lint.sampling import compare_draws, lint_draws
-from nddl_lang.lint.scripts import lint_capacity, lint_script
+from nddl_lang.lint.scripts import lint_script
 from nddl_lang.lint.structure import lint_structure
 from nddl_lang.lint.subgoals import lint_subgoals
 from nddl_lang.lint.suppression import suppress
@@ -53,7 +54,7 @@ _WHOLE_LINTS: tuple[Callable[[Whole], Iterable[Diagnostic]], ...] = (
     lint_declarations,
     lint_structure,
     lint_script,
-    lint_capacity,
+    lint_resources,
     lint_includes,
     lint_times_together,
     lint_names_of_values,

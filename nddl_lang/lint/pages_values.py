@@ -1,6 +1,7 @@
 """The pages of the findings about numbers, draws, the script, and what EUROPA does otherwise."""
 
 from nddl_lang.lint.codes import (
+    BEGINS_OUTSIDE,
     BESIDE_FILE,
     BEYOND_FLOATS,
     CHAINED,
@@ -115,10 +116,18 @@ VALUE_PAGES = (
     ),
     RulePage(
         OVER_CAPACITY,
-        "One token takes more of a resource than that ever holds.",
+        "One token takes more of a resource than that ever holds, or brings more than it ever has room for.",
         "No plan can contain the token.",
         "Reusable power = new Reusable(1.0, 0.0);\nclose();\ngoal(power.uses u);\nu.quantity = 2.0;\n",
         "Reusable power = new Reusable(3.0, 0.0);\nclose();\ngoal(power.uses u);\nu.quantity = 2.0;\n",
+    ),
+    RulePage(
+        BEGINS_OUTSIDE,
+        "The level of a resource lies outside its own limits before any token takes or brings something.",
+        "`Reservoir(initial, min, max)` and `Reusable(capacity, min)` take numbers that are easily swapped. No plan "
+        "that uses the resource keeps its limits.",
+        "Reservoir tank = new Reservoir(20.0, 120.0, 150.0);\nclose();\ngoal(tank.consume c);\nc.quantity = 2.0;\n",
+        "Reservoir tank = new Reservoir(120.0, 20.0, 150.0);\nclose();\ngoal(tank.consume c);\nc.quantity = 2.0;\n",
     ),
     RulePage(
         OVERLOOKED,

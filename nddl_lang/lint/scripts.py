@@ -1,20 +1,16 @@
-"""Find statements of the script that cannot come true: tokens outside the horizon, merges, demands over capacity."""
+"""Find statements of the script that cannot come true: tokens outside the horizon, merges, objects never chosen."""
 
 from collections.abc import Iterator
 
-from nddl_lang.lint.codes import IDLE_FACT, NEVER_PLANNED, NO_MERGE, OUTSIDE_HORIZON, OVER_CAPACITY, UNCLOSED
+from nddl_lang.lint.codes import IDLE_FACT, NEVER_PLANNED, NO_MERGE, OUTSIDE_HORIZON, UNCLOSED
 from nddl_lang.lint.part import Part
 from nddl_lang.lint.whole import Whole, hull_of
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.literals import number
 from nddl_lang.semantics.schema import (
-    INFINITY,
-    Domain,
-    GlobalReference,
     Interval,
     Kind,
     Label,
-    Target,
     TokenReference,
     Variable,
 )
@@ -22,18 +18,13 @@ from nddl_lang.syntax.nodes import (
     Assignment,
     ClassDecl,
     GoalStatement,
-    Instance,
     MethodCall,
     NewExpr,
-    PathExpr,
     PredicateDecl,
-    SuperCall,
     VariableDecl,
 )
 from nddl_lang.text.diagnostic import Diagnostic, Note
-from nddl_lang.text.source import Span
 
-_RESOURCES = frozenset({"Reusable", "CBReusable", "Reservoir", "Unary"})
 _DEFAULT_HORIZON = Interval(0, 100)
 
 
@@ -171,111 +162,3 @@ def _unclosed(whole: Whole, first: Part) -> Iterator[Diagnostic]:
 
 def _is_parameter(part: Part, declaration: VariableDecl) -> bool:
     return any(declaration in predicate.body for predicate in part.all(PredicateDecl))
-
-
-# ---- resources ----
-
-
-_Limits = list[float | int | None]
-
-
-def lint_capacity(whole: Whole) -> Iterator[Diagnostic]:
-    """Uses of a resource that are larger than it can ever hold."""
-    capacities = _capacities(whole)
-    if not capacities:
-        return
-    for part in whole.parts:
-        for instance in part.all(Instance):
-            target = part.tables.targets.get(instance)
-            if target is None or target.label is None:
-                continue
-            resource = _resource(whole, capacities, target)
-            if resource is None:
-                continue
-            capacity = capacities[resource]
-            for demand, span in _demands(whole, part, target.label):
-                if demand > capacity + domains.TOLERANCE:
-                    notes = (Note("the resource is made here", resource.span),)
-                    yield OVER_CAPACITY.at(
-                        span,
-                        notes=notes,
-                        name=target.label.name,
-                        demand=_text(demand),
-                        resource=resource.name,
-                        capacity=_text(capacity),
-                    )
-                    break
-
-
-def _resource(whole: Whole, capacities: dict[Variable, float], target: Target) -> Variable | None:
-    """The resource that a token is on; of several that it may be on, the largest, if all are known."""
-    if isinstance(target.object, GlobalReference):
-        return target.object.variable if target.object.variable in capacities else None
-    class_name = target.predicate.class_name
-    known = [
-        variable
-        for variable in capacities
-        if whole.analysis.schema.is_subclass(variable.type.base, class_name)
-        and isinstance(variable.initialiser, NewExpr)
-    ]
-    if not known or len(known) != len(whole.objects.get(class_name, ())):
-        return None
-    return max(known, key=lambda variable: capacities[variable])
-
-
-def _text(value: float) -> str:
-    return domains.text(Interval(value, value))
-
-
-def _capacities(whole: Whole) -> dict[Variable, float]:
-    """The most that the resources of the script can hold above their least level."""
-    found: dict[Variable, float] = {}
-    for variable in whole.analysis.schema.globals.values():
-        new = variable.initialiser
-        if not isinstance(new, NewExpr) or _RESOURCES.isdisjoint(whole.ancestry(new.class_name.name)):
-            continue
-        capacity = _capacity(*_native(whole, new.class_name.name, [number(argument) for argument in new.arguments]))
-        if capacity is not None and capacity < INFINITY:
-            found[variable] = capacity
-    return found
-
-
-def _native(whole: Whole, class_name: str, values: _Limits) -> tuple[str, _Limits]:
-    """The native class that an object is built on, and what the constructors on the way hand to it."""
-    owner = whole.analysis.schema.classes.get(class_name)
-    while owner is not None and not owner.is_native and owner.base is not None:
-        fitting = [each for each in owner.constructors if len(each.parameters) == len(values)]
-        given: _Limits = []
-        if len(fitting) == 1 and fitting[0].node is not None:
-            names = {parameter.name: value for parameter, value in zip(fitting[0].parameters, values, strict=True)}
-            for statement in fitting[0].node.body:
-                if isinstance(statement, SuperCall):
-                    given = [
-                        names.get(each.span.text) if isinstance(each, PathExpr) else number(each)
-                        for each in statement.arguments
-                    ]
-        values = given
-        owner = whole.analysis.schema.classes.get(owner.base)
-    return (owner.name if owner is not None else class_name), values
-
-
-def _capacity(class_name: str, limits: _Limits) -> float | None:
-    match class_name, limits:
-        case ("Reusable" | "CBReusable", [float() | int() as capacity, float() | int() as least, *_]):
-            return capacity - least
-        case "Reservoir", [_, float() | int() as least, float() | int() as most, *_]:
-            return most - least
-        case "Unary", []:
-            return 1.0
-        case _:
-            return None
-
-
-def _demands(whole: Whole, part: Part, label: Label) -> Iterator[tuple[float, Span]]:
-    """What is certainly taken by a token, and where the text says so."""
-    given: list[tuple[Domain, Span]] = list(whole.given.get((label, "quantity"), ()))
-    given += whole.inner_given(part).get((label, "quantity"), [])
-    for domain, span in given:
-        hull = hull_of(domain)
-        if hull is not None and hull.lower < INFINITY:
-            yield hull.lower, span
