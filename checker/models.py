@@ -1,7 +1,7 @@
 """The models of a mission, read and checked: programs, what they sample, and all that is wrong with them."""
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
@@ -18,6 +18,7 @@ from compiler.lower import compile_model
 from compiler.program import ParameterSite, Program
 from nddl_lang.analysis import Analysis, analyse
 from nddl_lang.lint.configuration import settings_in
+from nddl_lang.lint.linter import lint
 from nddl_lang.semantics.callables import Callables
 from nddl_lang.syntax.includes import LoadedModules, OpenText, load_module_graph
 from nddl_lang.text.diagnostic import Diagnostic, Severity
@@ -31,7 +32,8 @@ from runtime.user.library import load_library
 class ModelSet:
     """What the reactors of an agent run. `programs` and `influence` are empty where a diagnostic is an error.
 
-    `agent` is the mission's, with every parameter that the models sample and every range filled in.
+    `agent` is the mission's, with every parameter that the models sample and every range filled in. `findings` are what
+    lint warns of in the models, where that was asked for.
     """
 
     agent: AgentConfiguration
@@ -39,6 +41,7 @@ class ModelSet:
     texts: dict[str, str]  # by file name, for the digest of a run
     influence: Influence
     diagnostics: tuple[Diagnostic, ...]
+    findings: tuple[Diagnostic, ...] = ()
 
     @property
     def has_errors(self) -> bool:
@@ -77,8 +80,10 @@ def _text_or_digest(path: Path) -> str | None:
             return hashlib.file_digest(opened, "sha256").hexdigest()
 
 
-def load_models(mission: Mission, open_text: OpenText = read_text) -> ModelSet:
+def load_models(mission: Mission, open_text: OpenText = read_text, *, is_linted: bool = False) -> ModelSet:
     """Read all models of a mission; every mistake in them is reported, once. `open_text` gives the texts of files.
+
+    `is_linted`: find out what lint warns of, too.
 
     Raises UserCodeError where a module with constraints cannot be used.
     """
@@ -99,9 +104,9 @@ def load_models(mission: Mission, open_text: OpenText = read_text) -> ModelSet:
     told = [analysis.diagnostics for analysis in analyses.values()]
     readings = [read_configuration(source) for source in configured]
     told += [complaints for _, complaints in readings]
-    found: dict[tuple[str, int, str, str], Diagnostic] = {}
+    found: dict[_Place, Diagnostic] = {}
     for one in chain.from_iterable(told):
-        found.setdefault((one.span.source.name, one.span.begin, one.code.id, one.message), one)
+        found.setdefault(_place_of(one), one)
     if any(one.severity is Severity.ERROR for one in found.values()):
         return ModelSet(agent, {}, texts, {}, tuple(found.values()))
     programs = {model: compile_model(analysis) for model, analysis in analyses.items()}
@@ -114,7 +119,30 @@ def load_models(mission: Mission, open_text: OpenText = read_text) -> ModelSet:
     if mission.figures is not None:
         misfits += figure_misfits(mission.figures, mission.text, agent, programs)
     completed = complete(mission, sites)
-    return ModelSet(completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits))
+    findings = tuple(_findings(analyses.values(), found)) if is_linted else ()
+    return ModelSet(
+        completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits), findings
+    )
+
+
+_Place = tuple[str, int, str, str]
+
+
+def _place_of(one: Diagnostic) -> _Place:
+    """What tells a complaint from all others, whichever model it was found in."""
+    return one.span.source.name, one.span.begin, one.code.id, one.message
+
+
+def _findings(analyses: Iterable[Analysis], known: Container[_Place]) -> Iterator[Diagnostic]:
+    """What lint warns of by the settings of each model's project, but for what is `known`; each finding once."""
+    told: set[_Place] = set()
+    for analysis in analyses:
+        settings = settings_in(Path(analysis.loaded.root.name).parent)
+        for one in settings.choose(lint(analysis)):
+            place = _place_of(one)
+            if one.severity is Severity.WARNING and place not in known and place not in told:
+                told.add(place)
+                yield one
 
 
 def _analyse_models(agent: AgentConfiguration, callables: Callables, open_text: OpenText) -> dict[str, Analysis]:

@@ -46,6 +46,7 @@ from nddlc.keeping import keep_findings, keep_pages
 from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.mission_trust import models_of
+from nddlc.one_mission import warnings_page
 from nddlc.progress import Display
 from nddlc.samplers import find_sampler
 from nddlc.seeking import SeekingDisplay
@@ -208,13 +209,14 @@ def _prepare(
         _tell(found, style)
         return None
     mission = _overridden(mission, missions, seed, max_failure_rate)
-    models = models_of(mission, is_trusted=is_trusted)
+    models = models_of(mission, is_trusted=is_trusted, is_linted=style == "text")
     if models.has_errors:
         _tell((*found, *models.diagnostics), style)
         return None
     if style == "text":
         weighty = (Severity.ERROR, Severity.WARNING)
         _tell(tuple(one for one in (*found, *models.diagnostics) if one.severity in weighty), style)
+        say(warnings_page(models))
     return Campaign(mission, models, pinned(models))
 
 

@@ -10,13 +10,16 @@ from nddl_lang.text.source import Span
 from nddlc.trust import permit
 
 
-def models_of(mission: Mission, *, is_trusted: bool, is_named: bool = True) -> ModelSet:
-    """The models of a mission, read and checked; `is_named`: the command line names the mission, not another file."""
+def models_of(mission: Mission, *, is_trusted: bool, is_named: bool = True, is_linted: bool = False) -> ModelSet:
+    """The models of a mission, read and checked; `is_named`: the command line names the mission, not another file.
+
+    `is_linted`: what lint warns of is found out, too.
+    """
     if not is_trusted:
         root = real_path(Path(mission.agent.root))
         here = real_path(Path.cwd())
         permit(_python_of(mission), root, is_named or root.is_relative_to(here))
-    return load_models(mission)
+    return load_models(mission, is_linted=is_linted)
 
 
 def _python_of(mission: Mission) -> Iterable[tuple[Path, Span]]:

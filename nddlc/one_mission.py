@@ -6,6 +6,7 @@ import click
 
 from checker.mission import Mission, read_mission
 from checker.models import ModelSet
+from checker.names import relative_name
 from checker.sampling.rendering import describe
 from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.text.diagnostic import Diagnostic, Severity
@@ -16,11 +17,16 @@ from nddlc.inputs import Unusable, readable
 from nddlc.mission_trust import models_of
 from runtime.executive.configuration import ParameterConfiguration
 
+_MOST_WARNINGS = 3  # that are shown before a flight
 
-def prepare(path: str, *, is_trusted: bool, is_named: bool = True) -> tuple[Path, Mission, ModelSet]:
+
+def prepare(
+    path: str, *, is_trusted: bool, is_named: bool = True, is_linted: bool = False
+) -> tuple[Path, Mission, ModelSet]:
     """Read a mission and its models; what is wrong with them is told, and an error ends the command.
 
-    `is_named`: the command line names the mission, not a file that the command line names.
+    `is_named`: the command line names the mission, not a file that the command line names. `is_linted`: what lint warns
+    of is told, too, in short.
     """
     (file,) = readable((path,), ())
     if file.suffix not in MISSION_SUFFIXES:
@@ -29,10 +35,11 @@ def prepare(path: str, *, is_trusted: bool, is_named: bool = True) -> tuple[Path
     if mission is None:
         _tell(found)
         raise Unusable("the mission file is in error: nothing was flown")
-    models = models_of(mission, is_trusted=is_trusted, is_named=is_named)
+    models = models_of(mission, is_trusted=is_trusted, is_named=is_named, is_linted=is_linted)
     _tell((*found, *models.diagnostics))
     if models.has_errors:
         raise Unusable("the models are in error: nothing was flown")
+    click.echo(fitted(warnings_page(models), columns()), nl=False, err=True)
     return file, mission, models
 
 
@@ -40,6 +47,22 @@ def _tell(diagnostics: tuple[Diagnostic, ...]) -> None:
     for one in diagnostics:
         if one.severity in (Severity.ERROR, Severity.WARNING):
             click.echo(fitted(render(one, colour=colours()), columns()), err=True)
+
+
+def warnings_page(models: ModelSet) -> str:
+    """What lint warns of in the models of a mission, in short: how much it is, and the first few."""
+    findings = models.findings
+    if not findings:
+        return ""
+    root = Path(models.agent.root)
+    count = f"{len(findings)} warning{'' if len(findings) == 1 else 's'}"
+    lines = [f"{count} about these models (`nddlc lint` shows them in full):"]
+    for one in findings[:_MOST_WARNINGS]:
+        line, column = one.span.source.locate(one.span.begin)
+        name = relative_name(one.span.source.name, root)
+        lines.append(f"  {name}:{line}:{column}: {one.message} [{one.code.id}]")
+    lines += [f"  and {len(findings) - _MOST_WARNINGS} more"] if len(findings) > _MOST_WARNINGS else []
+    return "\n".join(lines) + "\n"
 
 
 def _may_be_drawn(parameter: ParameterConfiguration, value: float) -> bool:

@@ -3,15 +3,16 @@
 import re
 import sys
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 import click
 
-from checker.causes import failed_by, lines_that_rule_out, missed_after
+from checker.causes import Failed, dead_ends, failed_by, goals_ruled_out, lines_that_rule_out, missed_after
 from checker.clock_table import clock_log
+from checker.culprit import culprit_of
 from checker.excerpts import Excerpts
 from checker.happened import WIDTH, gantt
 from checker.mission import LARGEST_SEED
@@ -27,13 +28,14 @@ from runtime.executive.clocks import clock_of
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, OpenGoal
-from runtime.executive.rendering import event_text, goal_text
+from runtime.executive.rendering import deadlock_text, event_text, goal_text, token_text
 
 _PASS, _FAIL = 0, 1
 _TOLD = (EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL, EventKind.RELAX, EventKind.KILL, EventKind.ABORT)
 
 _FILE = click.Path(path_type=Path, dir_okay=False)
 _MOST_LINES = 8  # of the model that are named for a failure
+_MOST_REASONS = 3  # of goals that stayed open, each with its lines
 
 
 @click.command()
@@ -61,7 +63,7 @@ def command(
     it can be, unless `--real-time` is given. Ends with 0 if the mission passes, with 1 if it fails, with 2 if it cannot
     be flown.
     """
-    file, mission, models = prepare(mission_here(path), is_trusted=is_trusted)
+    file, mission, models = prepare(mission_here(path), is_trusted=is_trusted, is_linted=True)
     settings = FlightSettings(mission.check.seed if seed is None else seed, values_of(given, models), until)
     agent = models.agent
     clock = clock_of(agent.clock)
@@ -117,17 +119,32 @@ def _report(agent: AgentConfiguration, flight: Flight) -> str:
         lines.append(f"  {cut}: the mission ends at {agent.final_tick}{goals}\n")
     lines += [f"  open: {goal_text(goal)}{_so_far(goal, outcome.events)}\n" for goal in outcome.open_goals]
     if judgement.verdict is not Verdict.PASS:
-        places = [one.place for one in lines_that_rule_out(failed_by(outcome)) if one.place is not None]
-        if places:
-            lines.append("  these lines together rule out what was wanted; it breaks at the first:\n")
         excerpts = Excerpts(Path(agent.root))
-        lines += [
-            f"    {one.file}:{one.line}:{one.column}: {_with_message(one.text, excerpts.line(one))}\n"
-            for one in places[:_MOST_LINES]
-        ]
-        lines += [f"    and {len(places) - _MOST_LINES} more\n"] if len(places) > _MOST_LINES else []
+        ruled_out = goals_ruled_out(outcome) if outcome.abort is None else []
+        if len(ruled_out) < 2:
+            lines += _lines_of(failed_by(outcome), "what was wanted", excerpts)
+        for missed, failed in ruled_out[:_MOST_REASONS] if len(ruled_out) > 1 else ():
+            lines += _lines_of(
+                failed, ", ".join(token_text(goal.predicate, goal.arguments) for goal in missed), excerpts
+            )
+        if len(ruled_out) > _MOST_REASONS:
+            lines.append(f"  and {len(ruled_out) - _MOST_REASONS} more goals, each for lines of its own\n")
         lines.append("  what to change: `nddlc check` tries it out, `nddlc explain` then tells how it came\n")
     return "".join(lines)
+
+
+def _lines_of(failed: Failed, wanted: str, excerpts: Excerpts) -> Iterator[str]:
+    """The lines of the model that rule something out, first where it breaks; without any, what had no choice."""
+    places = [one.place for one in lines_that_rule_out(failed) if one.place is not None]
+    if places:
+        yield f"  these lines together rule out {wanted}; it breaks at the first:\n"
+    else:
+        ends = dict.fromkeys(deadlock_text(way[-1]) for way in dead_ends(failed.deadlock))
+        yield from (f"  no choice is left for {wanted}: {end}\n" for end in list(ends)[:_MOST_REASONS])
+    for one in places[:_MOST_LINES]:
+        yield f"    {one.file}:{one.line}:{one.column}: {_with_message(one.text, excerpts.line(one))}\n"
+    if len(places) > _MOST_LINES:
+        yield f"    and {len(places) - _MOST_LINES} more\n"
 
 
 def _with_message(statement: str, line: str) -> str:
@@ -159,10 +176,12 @@ def _told(alike: Sequence[Event]) -> str:
     """One line for events of one sort: the first of them, with how many there were and until when."""
     first, last = alike[0], alike[-1]
     who = " ".join(filter(None, (first.reactor, first.kind.value, first.timeline)))
+    place = culprit_of(first.conflict).place if first.kind is EventKind.RELAX else None
+    where = f", by {place.file}:{place.line} `{place.text}`" if place is not None else ""
     if len(alike) == 1:
-        return f"{first.tick:>7}  {who}: {event_text(first)}\n"
+        return f"{first.tick:>7}  {who}: {event_text(first)}{where}\n"
     until = f", until tick {last.tick}" if last.tick > first.tick else ""
-    return f"{first.tick:>7}  {who}: {event_text(first)} (and {len(alike) - 1} more of this sort{until})\n"
+    return f"{first.tick:>7}  {who}: {event_text(first)}{where} (and {len(alike) - 1} more of this sort{until})\n"
 
 
 def _so_far(goal: OpenGoal, events: Sequence[Event]) -> str:

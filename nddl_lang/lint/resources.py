@@ -40,7 +40,7 @@ def lint_resources(whole: Whole) -> Iterator[Diagnostic]:
     """Levels that are out of bounds from the start, and what one token moves beyond all bounds."""
     bounds = _bounds_of_resources(whole)
     for made, each in bounds.items():
-        if not each.are_kept_at_first and whole.is_own(made.span):
+        if not each.are_kept_at_first:
             yield _outside(made, each)
     bounds = {resource: each for resource, each in bounds.items() if each.least <= each.most}
     if not bounds:
