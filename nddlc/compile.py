@@ -121,6 +121,6 @@ def _page(
     yield f"{configuration.name}: not determined, the general engine plans it"
     for reason in reasons if explain else ():
         if reason.span is None:
-            yield f"  {reason.text}"
+            yield f"  {reason.text}\n  help: {reason.advice}"
         else:
-            yield render(CHOICE_LEFT.at(reason.span, reason=reason.text), colour=colours())
+            yield render(CHOICE_LEFT.at(reason.span, help=reason.advice, reason=reason.text), colour=colours())

@@ -7,7 +7,20 @@ from compiler.determined.code import Line, RegisterBlock, RegisterLayout
 from compiler.determined.model import ReactorModel
 from compiler.determined.reasons import ChoiceReason, FreeChoice, UndeterminedError
 from compiler.determined.relations import FOLLOWING, MERGED, TOGETHER
-from compiler.program import Call, NewToken, PredicateCode, Program, Relate
+from compiler.program import (
+    DURATION,
+    Assign,
+    Call,
+    Guard,
+    NewToken,
+    Operand,
+    Post,
+    PredicateCode,
+    Program,
+    Relate,
+    Sample,
+    TokenVariable,
+)
 
 _MOST_PARAMETERS = 62  # as many bits has the mask of what is given
 
@@ -35,7 +48,8 @@ def analyse(program: Program, lines: tuple[Line, ...], lookahead: int) -> Determ
     """
     model = ReactorModel(program, lines)
     widths = [max((len(each.parameters) for each in model.predicates_of(n)), default=0) for n in range(len(lines))]
-    layout = RegisterLayout(lines, widths)
+    tells_lengths = _speaks_of_lengths(program)
+    layout = RegisterLayout(lines, [each + tells_lengths for each in widths], tells_lengths=tells_lengths)
     reasons: dict[ChoiceReason, None] = {}
     if lookahead > 1:
         reasons[ChoiceReason(FreeChoice.LOOKAHEAD, "the reactor", None)] = None
@@ -73,6 +87,27 @@ def analyse(program: Program, lines: tuple[Line, ...], lookahead: int) -> Determ
 
 def _everything(predicate: PredicateCode) -> int:
     return (1 << len(predicate.parameters)) - 1
+
+
+def _speaks_of_lengths(program: Program) -> bool:
+    """Whether a rule says how long a token that it asks for lasts."""
+    pending = [rule.body for rule in program.rules]
+    while pending:
+        for instruction in pending.pop():
+            match instruction:
+                case Guard(then=then, otherwise=otherwise):
+                    pending += [then, otherwise]
+                case Post(operands=operands) if any(map(_is_length_of_another, operands)):
+                    return True
+                case Assign(target=target) | Sample(target=target) if _is_length_of_another(target):
+                    return True
+                case _:
+                    pass
+    return False
+
+
+def _is_length_of_another(operand: Operand) -> bool:
+    return isinstance(operand, TokenVariable) and operand.token != 0 and operand.variable == DURATION
 
 
 def _order_of(model: ReactorModel, blocks: list[RegisterBlock]) -> tuple[int, ...]:

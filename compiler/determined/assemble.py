@@ -107,5 +107,8 @@ def _following(instruction: Instruction, work: Elaboration, layout: RegisterLayo
     token = work.tokens[number]
     assert token.how == FOLLOWING
     known = [k for k in range(len(token.predicate.parameters)) if work.banks[number] + k in sequence.known]
+    lasting = layout.widths[line] - 1
+    if layout.tells_lengths and work.banks[number] + lasting in sequence.known:
+        known.append(lasting)
     mask = sum(1 << k for k in known)
     return (code.FOLLOW, line, owner, work.model.number(token.predicate), mask & 0xFFFFFFFF, mask >> 32)

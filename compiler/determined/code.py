@@ -96,6 +96,7 @@ class RegisterLayout:
 
     Of each timeline there are banks of parameters: of the current token, of the one that is to follow it, of one that
     is due to start now, of one that somebody asked for, and of the token before (where a rule reads it: `remembered`).
+    Where `tells_lengths`, the last register of each bank is how long the token lasts, if the one before it says so.
     """
 
     lines: tuple[Line, ...]
@@ -113,6 +114,7 @@ class RegisterLayout:
     members: dict[tuple[str, tuple[str, ...]], int] = field(default_factory=dict)  # object, member path -> register
     samples: dict[str, int] = field(default_factory=dict)  # parameter -> number
     remembered: set[int] = field(default_factory=set)
+    tells_lengths: bool = False
     top: int = 1  # register 0 holds the tick that is now
 
     def __post_init__(self) -> None:

@@ -4,9 +4,10 @@ from itertools import pairwise
 
 from compiler.determined import code
 from compiler.determined.code import BlockToken, GuardRecord, LocalRecord, RegisterLayout, Shown
+from compiler.determined.domains import drawn, equation, within
 from compiler.determined.items import Context, Item, Worksheet
 from compiler.determined.model import ReactorModel, values_of
-from compiler.determined.operations import DEMANDS, FUNCTIONS, Cell, Way, computed, demand, equal_ways
+from compiler.determined.operations import DEMANDS, FUNCTIONS, Cell, Way, demand
 from compiler.determined.reasons import FreeChoice, UndeterminedError
 from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS, RELATIONS, ROOT, TOGETHER, RuleInstance
 from compiler.determined.times import Time, demand_time, is_time_constraint
@@ -72,6 +73,15 @@ class Elaboration:
             )
         if how == MERGED:
             self.sheet.given.add(layout.starts[line])
+        if how == FOLLOWING and layout.tells_lengths:
+            self.sheet.names[self._lasting(number)] = (f"{name}.{predicate.name.rpartition('.')[2]}.duration", None)
+            self.sheet.homes[self._lasting(number)] = context
+        if how == ROOT and layout.tells_lengths and self.mask >> (layout.widths[line] - 1) & 1:
+            lasting, span = self._lasting(number), self.model.span_of(predicate)
+            self.sheet.given.add(lasting)
+            self.sheet.items.append(
+                Item(context, span, "duration", (lasting,), (), ((code.LAST_EXACTLY, line, lasting),))
+            )
         if how in (MERGED, PREVIOUS):
             self.sheet.doubtful |= {bank + k for k in range(len(predicate.parameters))}
         if how in (ROOT, TOGETHER):
@@ -104,6 +114,10 @@ class Elaboration:
                 self.sheet.homes[bank + k] = context
         return number
 
+    def _lasting(self, number: int) -> int:
+        """The register that says how long a token lasts, where the one before it does."""
+        return self.banks[number] + self.layout.widths[self.tokens[number].line] - 1
+
     def _child(self, child: Child, body: RuleInstance, context: Context) -> None:
         span = child.span
         what = f"{child.relation}({child.predicate.rpartition('.')[2]})"
@@ -135,6 +149,8 @@ class Elaboration:
             self._act((code.LAST_LEAST, line, self._after_now()), context, span, what, 0)
         elif how == FOLLOWING:
             bank = tuple(self.banks[number] + k for k in range(len(predicate.parameters)))
+            if self.layout.tells_lengths:
+                bank += (self._lasting(number),)
             act = (code.FOLLOW, line, parent.line, number)
             self.sheet.items.append(Item(context, span, what, bank, (), (act,), 1))
 
@@ -166,7 +182,11 @@ class Elaboration:
             case Post():
                 self._post(instruction, body, context)
             case Sample(target=target, parameter=parameter, span=span):
-                self._draw(self._cell(target, body, span), parameter, context, span)
+                drawn = self._operand(target, body, span)
+                if isinstance(drawn, Time):
+                    drawn = self._computed_time(drawn, context, span)
+                assert isinstance(drawn, Cell)
+                self._draw(drawn, parameter, context, span)
             case Child():
                 self._child(instruction, body, context)
             case Guard():
@@ -259,52 +279,20 @@ class Elaboration:
         self.sheet.items.append(Item(context, span, span.text, registers, (), tuple(instructions)))
 
     def _equate(self, a: Cell, b: Cell, context: Context, span: Span, name: str) -> None:
-        ways = tuple(equal_ways(self.layout, a, b))
-        self.sheet.items.append(Item(context, span, name, (a.register, b.register), ways))
+        self.sheet.items.append(equation(self.layout, a, b, context, span, name))
 
     def _draw(self, target: Cell, parameter: str, context: Context, span: Span) -> None:
         number = self.layout.sample(parameter)
         self.draws.append(number)
-        if target.is_real:
-            way = Way((target.register,), (), ((code.DRAW, target.register, number),))
-            self.sheet.items.append(Item(context, span, span.text, (target.register,), (way,)))
-            return
-        raw = Cell(self.layout.take(1), "float")
-        self.sheet.items.append(
-            Item(
-                context,
-                span,
-                span.text,
-                (raw.register,),
-                (Way((raw.register,), (), ((code.DRAW, raw.register, number),)),),
-            )
-        )
-        way = computed(self.layout, code.COPY, target, (raw,))
-        self.sheet.items.append(Item(context, span, span.text, (target.register, raw.register), (way,)))
+        self.sheet.items += drawn(self.layout, target, number, context, span)
 
     def _restrict(
         self, cell: Cell, type_: TypeCode, given: DomainConstant | None, context: Context, span: Span, name: str
     ) -> None:
         """Hold a variable within its declared domains."""
         for domain in (type_.domain, given):
-            if domain is None:
-                continue
-            allowed = values_of(domain, self.layout)
-            if allowed is not None and len(allowed) == 1:
-                self._equate(cell, Cell(self._constant(allowed[0]), cell.kind), context, span, name)
-            elif allowed is not None:
-                first = self.layout.take(len(allowed))
-                for k, value in enumerate(allowed):
-                    self.layout.presets[first + k] = value
-                check = ((code.MEMBER, cell.register, first, len(allowed)),)
-                self.sheet.items.append(Item(context, span, name, (cell.register,), (), check))
-            elif domain.interval is not None:
-                for bound, is_lower in zip(domain.interval, (True, False), strict=True):
-                    if abs(bound) < code.LARGEST:
-                        edge = self._constant(float(bound))
-                        pair = (edge, cell.register) if is_lower else (cell.register, edge)
-                        # A float beyond its bound by less than the tolerance would be moved: that is not for us.
-                        self.sheet.items.append(Item(context, span, name, (cell.register,), (), ((code.ORDER, *pair),)))
+            if domain is not None:
+                self.sheet.items += within(self.layout, self._constant, cell, domain, context, span, name)
 
     # ---- operands ----
 
@@ -356,6 +344,8 @@ class Elaboration:
                     return Cell(0, "int")
                 if variable == START and record.how == MERGED:
                     return Cell(layout.starts[record.line], "int")
+                if variable == DURATION and record.how == FOLLOWING:
+                    return Cell(self._lasting(body.tokens[token]), "int")
                 if record.how in (ROOT, TOGETHER, MERGED):
                     return Time(body.tokens[token], variable)
                 raise UndeterminedError(FreeChoice.END, span.text.split("\n")[0], span)

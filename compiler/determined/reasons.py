@@ -28,6 +28,29 @@ class FreeChoice(Enum):
     LIMITED = "the planner's steps of `{name}` are limited"
 
 
+_ADVICE = {
+    FreeChoice.LOOKAHEAD: "a planner looks ahead on purpose; a simulator has `lookahead = 1`",
+    FreeChoice.NO_TIMELINE: "name its timeline under `internal` or `external` of the reactor",
+    FreeChoice.SEVERAL_OBJECTS: "write the timeline before the predicate: `arm.Rest`; `object.Rest` for the rule's own",
+    FreeChoice.OPEN_TIMES: "say when it starts: `starts`, `equals` (now), `meets` (next), `met_by` (before), or "
+    "`contained_by` (what holds already)",
+    FreeChoice.ASKED_OF_OTHERS: "let a planner ask for it; a simulator may read what holds there with `contained_by`",
+    FreeChoice.RESOURCE: "leave resources to the planner",
+    FreeChoice.CLOCK: "read the `start` of the token: the rule runs at that tick",
+    FreeChoice.OPEN_VALUE: "say what it is with `==`, from parameters, constants and draws",
+    FreeChoice.UNKNOWN_VALUE: "give it a value where it is declared",
+    FreeChoice.FUNCTION: "there is code for `+ - * /`, `min`, `max`, `abs`, `ceil`, `floor`, `sqrt`, and comparisons",
+    FreeChoice.STATEMENT: "a rule of a simulator has relations, comparisons, draws and conditions",
+    FreeChoice.END: "say how long it lasts, from what is known as it starts, and compute with that: "
+    "`duration == lasting;`, `start + lasting`",
+    FreeChoice.CYCLE: "let one of them read the others, and not be read by them in the same tick",
+    FreeChoice.LATER_FACT: "let a rule begin it with `meets`, or ask for it in the mission file",
+    FreeChoice.GOAL: "ask for it in the mission file, as `[[goal]]`",
+    FreeChoice.EARLY: "leave `early` out of the settings of the reactor",
+    FreeChoice.LIMITED: "leave out the limit of its steps",
+}
+
+
 @dataclass(frozen=True, slots=True)
 class ChoiceReason:
     """One choice: its kind, the subject in the modeler's words, and where the model leaves it (None: the setting)."""
@@ -40,6 +63,11 @@ class ChoiceReason:
     def text(self) -> str:
         """The reason in words."""
         return self.choice.value.format(name=self.name)
+
+    @property
+    def advice(self) -> str:
+        """What to write for a reactor that is to be determined."""
+        return _ADVICE[self.choice]
 
 
 class UndeterminedError(Exception):

@@ -130,7 +130,8 @@ class Writer:
             flash = f"{name}Flash"
             self.timeline(flash, "predicate Off { } predicate On { float w; }", "Off")
             self.rules.append(f"{flash}::On {{ duration == 1; }}")
-            body.append(f"if (up1 != up) {{ meets({flash}.On f); f.w == x1; }}")
+            lasting = chance.choice(("", " f.duration == 1;"))
+            body.append(f"if (up1 != up) {{ meets({flash}.On f); f.w == x1;{lasting} }}")
         if chance.random() < 0.4:
             seen = f"{name}Seen"
             self.timeline(seen, "predicate Is { float w; }", "Is")
@@ -151,6 +152,8 @@ class Writer:
         if with_draw:
             lasting = "float d; int t; d == sampledParameter(SLOW); t == ceil(d * 4.0); duration == t + 1;"
         after = chance.choice(("", "meets(object.Rest r); r.k == n;", "meets(object.Rest r);"))
+        if after and chance.random() < 0.5:
+            after += chance.choice((" r.duration == n;", " r.duration == 4;", " if (n > 3) { r.duration == n + 2; }"))
         rest = chance.choice(("", "duration >= 3;", "duration == 4;"))
         self.timeline(name, "predicate Rest { int k; } predicate Do { int n; }", "Rest")
         self.rules.append(f"{name}::Do {{ {lasting} {after} }}")

@@ -156,6 +156,34 @@ def test_state_that_is_carried_from_the_token_before() -> None:
     agree(steps(fire, GoalConfiguration("tank", "Firing", 20, False, (24.0, 30.0))))
 
 
+GRIP = """
+float LONG = [1.0 9.0];
+class Arm extends AgentTimeline {
+  predicate Rest { } predicate Grip { int n; } predicate Torn { } Arm(Mode m) { super(m, "Rest"); }
+}
+class Lamp extends AgentTimeline { predicate Off { } predicate On { } Lamp(Mode m) { super(m, "Off"); } }
+Arm::Grip {
+  duration == sampledParameter(LONG);
+  if (n > 2) {
+    meets(object.Torn torn); torn.duration == n + 1;
+    meets(Lamp.On on); on.duration == sampledParameter(LONG);
+  }
+}
+Arm::Torn { starts(Lamp.On on); on.end == end; }
+Arm arm = new Arm(Internal); Lamp lamp = new Lamp(Internal); close();
+"""
+
+
+@pytest.mark.parametrize("rule", ["Arm::Torn { }", "Arm::Torn { duration == 5; }", "Lamp::On { duration <= 4; }"])
+def test_a_token_tells_how_long_the_next_one_lasts(rule: str) -> None:
+    long = ParameterConfiguration("LONG", 2, 6, distribution="discrete", values=(2, 3, 6), mode="intra", update=1)
+    model = GRIP.replace("Arm::Torn { starts(Lamp.On on); on.end == end; }", rule)
+    for n in (1, 3, 4):
+        asked = GoalConfiguration("arm", "Grip", 2, False, (4, 9), None, None, (("n", n),))
+        again = GoalConfiguration("arm", "Torn", 2, False, (12, 29))
+        agree(Case((simulator("psim", model, "arm lamp"),), (asked, again), (long,)), n)
+
+
 SLIT = """
 class Slit extends AgentTimeline {
   predicate Closed { } predicate Opening { } predicate Open { } Slit(Mode m) { super(m, "Closed"); }

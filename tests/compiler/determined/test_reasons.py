@@ -5,7 +5,7 @@ import pytest
 from compiler.determined.analysis import DeterminismAnalysis, analyse
 from compiler.determined.code import Line
 from compiler.determined.pages import DETERMINED_PAGES
-from compiler.determined.reasons import FreeChoice
+from compiler.determined.reasons import ChoiceReason, FreeChoice
 from compiler.lower import compile_model
 from nddl_lang.analysis import analyse_text
 from nddl_lang.syntax.dialect import Dialect
@@ -40,6 +40,9 @@ def looked_at(rule: str, lines: tuple[Line, ...] = LINES, lookahead: int = 1) ->
         "float d; d == sampledParameter(DRAW); int t; t == ceil(d * w); duration == t;",
         "if (n == 3) { duration == 2; } else { duration == 4; }",
         "met_by(object.Rest r);",
+        "duration == sampledParameter(DRAW);",
+        "int k; k == n + 1; duration == k; meets(Eye.Sees e); e.n == n; e.duration == k + 3;",
+        "meets(object.Rest r); r.duration == sampledParameter(DRAW);",
         "bool late; late == (w > 2.0); if (late) { meets(Eye.Off o); }",
     ],
 )
@@ -63,6 +66,11 @@ def test_a_choice_is_named_with_its_line(rule: str, choice: FreeChoice, line: in
     (reason,) = looked_at(rule).reasons
     assert reason.choice is choice
     assert reason.span is not None and reason.span.line == line
+
+
+def test_each_choice_has_advice() -> None:
+    for choice in FreeChoice:
+        assert ChoiceReason(choice, "x", None).advice
 
 
 def test_two_timelines_of_one_class_are_a_choice() -> None:
