@@ -59,7 +59,7 @@ def resolve(
         if reference is None:
             complain_unknown(context, scope, parts[0], type_name=type_name, compared=compared)
     else:
-        reference = resolve_dotted(context, scope, parts)
+        reference = resolve_dotted(context, scope, parts, _last_of(compared, parts))
     if reference is not None:
         context.tables.references[path] = reference
         context.tables.references[parts[-1]] = reference
@@ -77,8 +77,13 @@ def resolve_value(context: Context, scope: Scope, path: PathExpr, compared: str 
 
 def name_beside(binary: BinaryExpr, side: Expr) -> str | None:
     """The name on one side of a comparison: nobody means to compare it with itself."""
-    is_name = isinstance(side, PathExpr) and len(side.parts) == 1
-    return side.span.text if binary.op in _COMPARISONS and is_name else None
+    return side.span.text if binary.op in _COMPARISONS and isinstance(side, PathExpr) else None
+
+
+def _last_of(compared: str | None, parts: Sequence[Identifier]) -> str | None:
+    """The last name of the other side, where that differs from these in nothing else: it is not meant here."""
+    before, _, last = (compared or "").rpartition(".")
+    return last if before == ".".join(part.name for part in parts[:-1]) else None
 
 
 def find(context: Context, scope: Scope, name: str) -> Reference | None:
@@ -104,8 +109,10 @@ def find_script_token(context: Context, scope: Scope, name: str) -> Label | None
     return context.symbols.find_goal(name) if scope.kind is BlockKind.SCRIPT else None
 
 
-def resolve_dotted(context: Context, scope: Scope, parts: Sequence[Identifier]) -> Reference | None:
-    """What `a.b.c` names; None, after a complaint, where it names nothing."""
+def resolve_dotted(
+    context: Context, scope: Scope, parts: Sequence[Identifier], but: str | None = None
+) -> Reference | None:
+    """What `a.b.c` names; None, after a complaint, where it names nothing. The last name is not meant to be `but`."""
     symbols, (head, *rest) = context.symbols, parts
     label = scope.find_label(head.name)
     start: Reference | None
@@ -115,7 +122,7 @@ def resolve_dotted(context: Context, scope: Scope, parts: Sequence[Identifier]) 
             label = goal
     if label is not None:
         context.tables.references[head] = TokenReference(label)
-        start = _find_token_variable(context, label, rest[0])
+        start = _find_token_variable(context, label, rest[0], but if len(rest) == 1 else None)
         if start is None:
             return None
         head = rest.pop(0)
@@ -132,7 +139,7 @@ def resolve_dotted(context: Context, scope: Scope, parts: Sequence[Identifier]) 
             context.complain(CLASS_AS_VALUE.at(head.span, name=name))
             return None
     context.tables.references[head] = start
-    return follow(context, scope, start, head, rest)
+    return follow(context, scope, start, head, rest, but)
 
 
 def _qualified_value(context: Context, enum: str, name: Identifier) -> EnumValue | None:
@@ -147,9 +154,12 @@ def _qualified_value(context: Context, enum: str, name: Identifier) -> EnumValue
 
 
 def follow(
-    context: Context, scope: Scope, start: Reference, head: Identifier, rest: list[Identifier]
+    context: Context, scope: Scope, start: Reference, head: Identifier, rest: list[Identifier], but: str | None = None
 ) -> Reference | None:
-    """The member `rest` of the object that `start` (written `head`) refers to; a complaint where there is none."""
+    """The member `rest` of the object that `start` (written `head`) refers to; a complaint where there is none.
+
+    The last of them is not meant to be `but`.
+    """
     reference = start
     for part in rest:
         type_ = reference_type(reference, scope.own_class)
@@ -161,7 +171,7 @@ def follow(
             return None
         member = context.symbols.find_member(type_.base, part.name)
         if member is None:
-            complain_unknown_member(context, type_.base, part)
+            complain_unknown_member(context, type_.base, part, but if part is rest[-1] else None)
             return None
         if isinstance(reference, MemberReference):
             reference = MemberReference(reference.base, (*reference.members, member))
@@ -173,8 +183,10 @@ def follow(
     return reference
 
 
-def _find_token_variable(context: Context, label: Label, name: Identifier) -> TokenVariableReference | None:
-    """The variable `name` of a token; a complaint where it has none."""
+def _find_token_variable(
+    context: Context, label: Label, name: Identifier, but: str | None
+) -> TokenVariableReference | None:
+    """The variable `name` of a token; a complaint where it has none, which is not meant to be `but`."""
     predicate = label.predicate
     type_ = builtin_type(name.name, predicate)
     if type_ is None:
@@ -191,12 +203,12 @@ def _find_token_variable(context: Context, label: Label, name: Identifier) -> To
             fix = Fix("write `time`", (Edit(name.span, "time"),))
             complaint = _with(complaint, "an event has one `time`, in place of `start` and `end`", (fix,))
         else:
-            names = [parameter.name for parameter in predicate.parameters]
-            only = names[0] if len(names) == 1 else None
+            names = [parameter.name for parameter in predicate.parameters if parameter.name != but]
+            only = names[0] if len(names) == 1 and but is None else None
             complaint = suggest_name(
                 complaint,
                 name,
-                [*names, *builtin_names(predicate.is_event)],
+                [*names, *(each for each in builtin_names(predicate.is_event) if each != but)],
                 last=other_name(name.name, predicate) or only,
             )
         context.complain(complaint)
@@ -210,8 +222,8 @@ def _declared_note(predicate: Predicate) -> tuple[Note, ...]:
     return (Note(f"`{predicate.full_name}` is declared here", predicate.span),)
 
 
-def complain_unknown_member(context: Context, class_name: str, name: Identifier) -> None:
-    """Say that a class has no such member."""
+def complain_unknown_member(context: Context, class_name: str, name: Identifier, but: str | None = None) -> None:
+    """Say that a class has no such member; `but` is not what was meant."""
     symbols = context.symbols
     if symbols.is_partial(class_name) or symbols.is_doubtful(name.name):
         return
@@ -221,7 +233,7 @@ def complain_unknown_member(context: Context, class_name: str, name: Identifier)
     complaint = UNKNOWN_MEMBER.at(name.span, notes=notes, owner=class_name, name=name.name)
     if owner is not None and not owner.is_defined:
         complaint = _with(complaint, f"`{class_name}` is only announced so far; define it above this place", ())
-    context.complain(suggest_name(complaint, name, _members(context, class_name)))
+    context.complain(suggest_name(complaint, name, [each for each in _members(context, class_name) if each != but]))
 
 
 def _members(context: Context, class_name: str) -> list[str]:

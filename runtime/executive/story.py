@@ -191,6 +191,8 @@ class _ElementReader(TermReader):
         if engine.constant[v] and engine.lower(v) == engine.upper(v):
             value, kind = engine.lower(v), engine.kind[v]
             return value if kind == KIND_FLOAT else int(value) if kind in (KIND_INT, KIND_BOOL) else self.value(v)
+        if engine.constant[v] and engine.kind[v] not in (KIND_FLOAT, KIND_INT, KIND_BOOL):
+            return self.value(v)  # a set of objects, which is nobody's variable
         return self.name(v)
 
     def name(self, v: int) -> VariableName:

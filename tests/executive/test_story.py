@@ -38,6 +38,17 @@ def test_a_conflict_over_symbols_names_them() -> None:
     assert any("red" in text for text in said) and any("blue" in text for text in said)
 
 
+def test_what_a_foreach_has_gone_through_is_told_by_its_objects() -> None:
+    rules = "Lamp::On { Lamp one; foreach (each in one) { contains(each.Off rest); } one != other; }"
+    lamps = "Lamp lamp = new Lamp(Internal); Lamp other = new Lamp(Internal); close();"
+    found = conflict_of(bench(f"{lamps} {rules} fact(lamp.On on); on.activate();"))
+    assert found is not None
+    assert any(
+        text.endswith("::one may not lose a value any more: `foreach` has gone through {lamp, other}")
+        for text in map(element_text, found.elements)
+    )
+
+
 def test_a_search_that_fails_says_what_it_tried() -> None:
     rules = "Lamp::On { meets(Off rest); rest.duration >= 5; rest.duration <= 3; }"
     plan = bench(f"{rules} Lamp lamp = new Lamp(Internal); close(); goal(Lamp.On on); on.start == 8;")

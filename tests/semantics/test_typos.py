@@ -148,3 +148,19 @@ def test_a_name_is_never_proposed_to_be_compared_with_itself(compared: str, help
     (complaint,) = analyse_text("typo.nddl", model).diagnostics
     assert complaint.message == "nothing named `levl` is in scope here"
     assert complaint.help == help_
+
+
+@pytest.mark.parametrize(
+    ("compared", "help_"),
+    [
+        ("dark.start == dark.strat", None),
+        ("dark.duration <= dark.duratoin", None),
+        ("dark.end == dark.strat", "did you mean `start`?"),
+        ("start == dark.strat", "did you mean `start`?"),
+        ("object.mode == object.mod", None),
+    ],
+)
+def test_a_dotted_name_is_never_proposed_to_be_compared_with_itself(compared: str, help_: str | None) -> None:
+    model = MODEL.replace("leq(level, duration);", f"{compared};")
+    (complaint,) = analyse_text("typo.nddl", model).diagnostics
+    assert complaint.help == help_
