@@ -150,6 +150,7 @@ class Campaign:
         *,
         ending: Ending = Ending.COMPLETE,
         may_fly: bool = True,
+        tests_conditions: bool = True,
         focus: int | None = None,
         sampling: Sampling | None = None,
         bounds: Bounds | None = None,
@@ -161,6 +162,8 @@ class Campaign:
         let: Interruptible = uninterrupted,
     ) -> Findings:
         """Judge the results; with `may_fly` conditions are sought and tested by flights, which `progress` counts.
+
+        Unless it `tests_conditions`: they come of the results alone then, and flights are made for causes only.
 
         Lines that may be the cause of a fault are tried within `bounds`, for all faults together no longer than
         `seconds`. With a `focus` all that is done only for the fault that mission `focus` belongs to. `conditions`
@@ -182,7 +185,7 @@ class Campaign:
                 run.seed,
                 run.missions,
                 [self.judged(result) for result in results],
-                refly if is_flying else None,
+                refly if is_flying and tests_conditions else None,
                 ending=ending,
                 focus=focus,
                 conditions=conditions,

@@ -49,3 +49,6 @@ NO_THREATS = Code(
 NO_REQUESTS = Code(
     "NDDL734", Severity.WARNING, "rule", "`{timeline}` takes no requests: its owner `{owner}` has a lookahead of 0"
 )
+SINGLE_LEVEL = Code(
+    "NDDL735", Severity.WARNING, "rule", "the level of `{resource}` would have to be {level} at all times"
+)

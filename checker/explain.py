@@ -11,10 +11,11 @@ from checker.counterfactual.ranking import Causes
 from checker.counterfactual.rendering import causes_data, claim_text, effort_text
 from checker.excerpts import Excerpts
 from checker.findings import Fault
+from checker.losses import Repairs
 from checker.names import mission_name
 from checker.oracle import CODE_NAMES
 from checker.proofs.conflict import Confirmation
-from checker.rendering import cause_number, confirmation_text, failure_text, step_label, step_text
+from checker.rendering import cause_number, confirmation_text, failure_text, kind_text, step_label, step_text
 from checker.sampling.rendering import number
 from checker.story import Step, StepKind, Story
 from runtime.executive.outcome import SourcePlace
@@ -132,11 +133,26 @@ def result_text(result: MissionResult, run_id: str) -> str:
     if outcome is None:
         reason = f"could not be flown: {failure_text(result.judgement)}"
         return f"{mission_name(result.number)} of run {run_id} (seed {result.seed}) {reason}\n{result.detail}\n"
-    lines = [
-        f"{mission_name(result.number)} of run {run_id} passed: it reached tick {outcome.last_tick}; nothing to explain"
-    ]
+    losses = result.losses
+    ends = "nothing to explain" if not losses.repairs else f"after {_times(losses.repaired, 'repair')} of plans"
+    lines = [f"{mission_name(result.number)} of run {run_id} passed: it reached tick {outcome.last_tick}; {ends}"]
+    lines += [f"  repaired: {_repair_text(each)}" for each in losses.repairs]
+    if losses.repairs:
+        lines.append("  a repair may set aside what a rule says; `max_repairs = 0` under [check] makes it a failure")
     lines += [f"  {draw.parameter} = {number(draw.value)} from tick {draw.tick} on" for draw in outcome.draws]
     return "\n".join(lines) + "\n"
+
+
+def _times(count: int, what: str) -> str:
+    return f"{count} {what}{'' if count == 1 else 's'}"
+
+
+def _repair_text(repair: Repairs) -> str:
+    """Repairs for one reason: the first of them, and the line that broke."""
+    place = repair.place
+    where = "" if place is None else f", by {place.file}:{place.line} `{place.text.strip()}`"
+    first = f"at tick {repair.first}" if repair.count == 1 else f"{repair.count} times, first at tick {repair.first}"
+    return f"{repair.reactor} {first}: {kind_text(repair.kind)}{where}"
 
 
 def result_data(result: MissionResult, run_id: str) -> dict[str, Any]:

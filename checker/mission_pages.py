@@ -25,6 +25,7 @@ from checker.codes import (
     OUT_OF_RANGE,
     OUT_OF_TIME,
     REVERSED,
+    SINGLE_LEVEL,
     TWICE,
     UNKNOWN_CHOICE,
     UNKNOWN_ELEMENT,
@@ -262,6 +263,14 @@ MISSION_PAGES = (
         "lookahead = 300\n",
         '[[reactor]]\nname = "pilot"\nmodel = "pilot.nddl"\nsolver = "pilot.toml"    # has a ResourceThreatManager\n'
         "lookahead = 300\n",
+        "toml",
+    ),
+    RulePage(
+        SINGLE_LEVEL,
+        "A property asks that a resource has one level and no other, as long as it is looked at.",
+        "A single number is exactly that level. A least level is the lower end of a range that has no upper one.",
+        '[[property]]\nname = "charged"\nkind = "level"\nresource = "battery"\nlevel = 22\n',
+        '[[property]]\nname = "charged"\nkind = "level"\nresource = "battery"\nlevel = [22, inf]\n',
         "toml",
     ),
     RulePage(

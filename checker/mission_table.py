@@ -54,6 +54,13 @@ class MissionText:
         """The value at `path`, or the key of the nearest table around it."""
         return self.span(*self.places[path].value) if path in self.places else self.key_span(path)
 
+    def reactor_path(self, number: int) -> Path:
+        """The table of a reactor that runs a model, by its number among those: tables of reactors in code count not."""
+        coded = {path[1] for path in self.places if path[:1] == ("reactor",) and path[2:] == ("code",)}
+        tables = dict.fromkeys(path[1] for path in self.places if path[:1] == ("reactor",) and len(path) > 1)
+        numbers = sorted(each for each in tables if isinstance(each, int) and each not in coded)
+        return ("reactor", numbers[number] if number < len(numbers) else number)
+
     def place(self, span: Span, text: str, before: int = 0) -> SourcePlace:
         """Where a stretch begins, or so many columns before that, as reports show it with `text`."""
         name = self.source.name.replace("\\", "/").rpartition("/")[2]

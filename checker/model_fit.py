@@ -37,7 +37,7 @@ def find_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[
         for key, timelines in (("internal", reactor.internal), ("external", reactor.external)):
             for index, timeline in enumerate(timelines):
                 if timeline not in objects:
-                    span = text.value_span(("reactor", number, key, index))
+                    span = text.value_span((*text.reactor_path(number), key, index))
                     advice = _advice(timeline, [*objects], "objects of the model")
                     yield NO_TIMELINE.at(span, model=reactor.model, timeline=timeline, help=advice)
                 elif key == "internal":

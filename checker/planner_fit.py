@@ -31,7 +31,7 @@ def unordered_resources(
         advice = "name a file with a `ResourceThreatManager` under `solver` (docs/cookbook.md shows one)"
         if reactor.solver is not None:
             advice = f'add a [[manager]] with `component = "ResourceThreatManager"` to {reactor.solver}'
-        span = mission.text.value_span(("reactor", number, key))
+        span = mission.text.value_span((*mission.text.reactor_path(number), key))
         yield NO_THREATS.at(span, resource=resources[0], reactor=reactor.name, help=advice)
 
 
@@ -56,7 +56,7 @@ def vain_requests(mission: Mission, number: int, program: Program, modes: Mappin
         if owner is None or child is None or owner.lookahead > 0 or is_observed or owner is reactor:
             continue
         yield NO_REQUESTS.at(
-            mission.text.value_span(("reactor", number, "external", index)),
+            mission.text.value_span((*mission.text.reactor_path(number), "external", index)),
             timeline=timeline,
             owner=owner.name,
             help=f"give `{owner.name}` a `lookahead` of 1, or list `{timeline}` under `observe` if nothing is asked",

@@ -2,7 +2,16 @@
 
 from collections.abc import Iterator, Mapping
 
-from checker.codes import ILL_VALUE, NO_ARGUMENT, NO_EFFECT, NO_PREDICATE, NO_REACTOR, NO_RESOURCE, OUT_OF_RANGE
+from checker.codes import (
+    ILL_VALUE,
+    NO_ARGUMENT,
+    NO_EFFECT,
+    NO_PREDICATE,
+    NO_REACTOR,
+    NO_RESOURCE,
+    OUT_OF_RANGE,
+    SINGLE_LEVEL,
+)
 from checker.goal_fit import strange_value
 from checker.judge.resources import resources_of
 from checker.mission import Mission
@@ -55,6 +64,11 @@ def _level_misfits(
     if level.resource not in known:
         advice = _advice(level.resource, list(dict.fromkeys(known)), "resources")
         yield NO_RESOURCE.at(mission.text.value_span((*path, "resource")), name=level.resource, help=advice)
+    least, most = level.bounds
+    if least == most:
+        help_ = f"`level = [{least:g}, inf]` is at least {least:g}, `level = [-inf, {least:g}]` at most"
+        span = mission.text.value_span((*path, "level"))
+        yield SINGLE_LEVEL.at(span, resource=level.resource, level=f"{least:g}", help=help_)
 
 
 def _pattern_misfits(

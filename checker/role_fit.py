@@ -37,7 +37,7 @@ def find_role_misfits(
             for index, timeline in enumerate(timelines):
                 mode = bench.mode(names.index(timeline)) if timeline in names else ""
                 if mode and mode not in _ROLES[key]:
-                    span = mission.text.value_span(("reactor", number, key, index))
+                    span = mission.text.value_span((*mission.text.reactor_path(number), key, index))
                     listed = "owned (`internal`)" if key == "internal" else "used (`external`)"
                     yield OTHER_ROLE.at(
                         span,
@@ -55,7 +55,7 @@ def find_role_misfits(
         for timeline in names:
             mode = bench.mode(names.index(timeline))
             if mode in _KEYS and timeline not in meant and _is_global(programs[reactor.model], timeline):
-                key_path = ("reactor", number, _KEYS[mode])
+                key_path = (*mission.text.reactor_path(number), _KEYS[mode])
                 is_there = key_path in mission.text.places
                 span = mission.text.value_span(key_path) if is_there else mission.text.key_span(key_path[:2])
                 yield UNLISTED.at(

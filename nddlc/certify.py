@@ -29,10 +29,17 @@ from runtime.executive.record import MissionRecord
 @click.option("--bound", "bounds", multiple=True, metavar="NAME", help="Find the safe value of a constant; repeatable.")
 @click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="Of the missions flown, else that of the file.")
 @click.option("--no-corners", is_flag=True, help="Fly no corners of the box before anything is proved.")
+@click.option("--rules-only", is_flag=True, help="Leave the properties out: certify the rules of the models alone.")
 @click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
 @trust_option
 def command(
-    path: str | None, bounds: tuple[str, ...], seed: int | None, no_corners: bool, style: str, is_trusted: bool
+    path: str | None,
+    bounds: tuple[str, ...],
+    seed: int | None,
+    no_corners: bool,
+    rules_only: bool,
+    style: str,
+    is_trusted: bool,
 ) -> int:
     """Prove that no value of the sampled parameters in their box breaks MISSION, or fly a mission that fails.
 
@@ -45,8 +52,8 @@ def command(
     excerpts = Excerpts(Path(models.agent.root))
     chosen = mission.check.seed if seed is None else seed
     certifier = certifier_of(models, chosen)
-    found = certifier.certify(corners=not no_corners)
-    told = [_bounded(name, certifier, mission, models, chosen) for name in bounds]
+    found = certifier.certify(corners=not no_corners, rules_only=rules_only)
+    told = [_bounded(name, certifier, mission, models, chosen, rules_only) for name in bounds]
     if style == "json":
         data: dict[str, Any] = certificate_data(found, certifier.box, excerpts)
         data["bounds"] = [_bound_data(*each, excerpts) for each in told]
@@ -78,7 +85,9 @@ def certifier_of(models: ModelSet, seed: int) -> Certifier:
     return Certifier(agent, flown.programs, fly)
 
 
-def _bounded(name: str, certifier: Certifier, mission: Mission, models: ModelSet, seed: int) -> _Bound:
+def _bounded(
+    name: str, certifier: Certifier, mission: Mission, models: ModelSet, seed: int, rules_only: bool
+) -> _Bound:
     """The safe value of a constant, and the certificate of the models that have it."""
     places = places_of(name, certifier.programs)
     if not places:
@@ -88,7 +97,12 @@ def _bounded(name: str, certifier: Certifier, mission: Mission, models: ModelSet
     if safe is None or overlay is None:
         return name, safe, places, None
     changed = load_models(mission, open_over(overlay))
-    return name, safe, places, None if changed.has_errors else certifier_of(changed, seed).certify()
+    return (
+        name,
+        safe,
+        places,
+        None if changed.has_errors else certifier_of(changed, seed).certify(rules_only=rules_only),
+    )
 
 
 def _bound_data(

@@ -83,6 +83,7 @@ _STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
     default=MOST_FLIGHTS,
     help=f"Trials for causes ({MOST_FLIGHTS}); 0: conditions, too, come of the missions alone.",
 )
+@click.option("--no-conditions", is_flag=True, help="Fly for causes alone: conditions come of the missions flown.")
 @click.option("--cluster", metavar="ADDRESS", help="Fly on a Dask cluster, such as tcp://127.0.0.1:8786.")
 @click.option("--dry-run", is_flag=True, help="Only look whether mission file and models are in order.")
 @trust_option
@@ -107,6 +108,7 @@ def command(
     sampler: str,
     coverage: bool,
     flights: int,
+    no_conditions: bool,
     cluster: str | None,
     dry_run: bool,
 ) -> int:
@@ -147,11 +149,12 @@ def command(
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
     with Interruption() as interruption:
-        with SeekingDisplay() as seeking:
+        with SeekingDisplay(_SECONDS) as seeking:
             findings = campaign.assess(
                 flown.results,
                 ending=flown.ending,
                 may_fly=flights > 0,
+                tests_conditions=not no_conditions,
                 sampling=flown.sampling,
                 bounds=Bounds(flights, _SECONDS_A_FAULT) if flights else None,
                 seconds=_SECONDS,

@@ -11,11 +11,15 @@ LINE_SECONDS = 4.0  # between two plain lines
 
 
 class SeekingDisplay:
-    """A call shows how many flights were made to find out why missions fail, unless that was done just now."""
+    """A call shows how many flights were made to find out why missions fail, unless that was done just now.
 
-    def __init__(self) -> None:
+    Causes are sought for `most` seconds, where that is said.
+    """
+
+    def __init__(self, most: float | None = None) -> None:
         self._is_terminal = sys.stderr.isatty()
-        self._shown = time.monotonic()
+        self._begun = self._shown = time.monotonic()
+        self._most = "" if most is None else f" (causes: at most {most:.0f} s)"
         self._is_shown = False
 
     def __enter__(self) -> "SeekingDisplay":
@@ -30,7 +34,7 @@ class SeekingDisplay:
         if now - self._shown < (BAR_SECONDS if self._is_terminal else LINE_SECONDS):
             return
         self._shown, self._is_shown = now, True
-        text = f"seeking causes and conditions: {flights} flights"
+        text = f"seeking causes and conditions: {flights} flights in {now - self._begun:.0f} s{self._most}"
         if self._is_terminal:
             click.echo(f"\r\x1b[K{text}", nl=False, err=True)
         else:

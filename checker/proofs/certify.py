@@ -66,6 +66,7 @@ class Certificate:
     why: str = ""  # it is unknown
     open: int = 0
     untold: tuple[tuple[str, int], ...] = ()
+    unproved: tuple[str, ...] = ()  # properties that are no part of the proof
 
 
 class Certifier:
@@ -87,8 +88,8 @@ class Certifier:
 
     # ---- the whole box ----
 
-    def certify(self, corners: bool = True) -> Certificate:
-        """Prove or refute that the mission passes in the whole box."""
+    def certify(self, corners: bool = True, *, rules_only: bool = False) -> Certificate:
+        """Prove or refute that the mission passes in the whole box; `rules_only` leaves its properties out."""
         if self.box.computed:
             return self._unknown(f"`{self.box.computed[0]}` is computed from other parameters")
         if self.agent.coded:
@@ -105,7 +106,7 @@ class Certifier:
             if answer is None:
                 return self._unknown("z3 gave up within its limit")
             if not answer:
-                return self._held(bool(seen))
+                return self._held(bool(seen), rules_only)
             point = answer[0]
             if len(answer) > 1:
                 return self._unknown("only draws that differ within a mission break a condition; these cannot be given")
@@ -121,14 +122,16 @@ class Certifier:
                     )
         return self._unknown(f"after {len(self.structures)} structures there are more")
 
-    def _held(self, has_gaps: bool) -> Certificate:
+    def _held(self, has_gaps: bool, rules_only: bool) -> Certificate:
         """Every condition holds; is that all that is asked?"""
-        if self.agent.properties:
-            return self._unknown("the rules hold, but the mission file's properties are not part of the proof")
+        unproved = tuple(each.name for each in self.agent.properties)
+        if unproved and not rules_only:
+            why = "the rules hold, but the mission file's properties are not part of the proof"
+            return self._unknown(f"{why} (`--rules-only` leaves them out)")
         silent = sorted({name for structure in self.structures for name in structure.untold if name in CONSTRAINTS})
         if silent:
             return self._unknown(f"z3 cannot be told what `{silent[0]}` means")
-        return self._answer(Certainty.CERTIFIED, why=_UNSEEN if has_gaps else "")
+        return self._answer(Certainty.CERTIFIED, why=_UNSEEN if has_gaps else "", unproved=unproved)
 
     def find_structure(self) -> bool:
         """Fly the middle of the box, else points drawn evenly, until a mission passes; whether there is a structure."""
@@ -331,6 +334,7 @@ class Certifier:
         subset: tuple[str, ...] = (),
         is_smallest: bool = False,
         why: str = "",
+        unproved: tuple[str, ...] = (),
     ) -> Certificate:
         untold: dict[str, int] = {}
         for structure in self.structures:
@@ -349,6 +353,7 @@ class Certifier:
             why,
             sum(found.open for found in self.dated),
             tuple(sorted(untold.items())),
+            unproved,
         )
 
 

@@ -22,6 +22,9 @@ def certificate_lines(name: str, found: Certificate, box: Box, excerpts: Excerpt
     """The answer as `nddlc certify` prints it."""
     sides = ", ".join(_side(box, each) for each in box.sides) or "no sampled parameters"
     match found.certainty:
+        case Certainty.CERTIFIED if found.unproved:
+            lines = [f"{name}: certified but for its properties: no value in the box breaks the rules"]
+            lines.append(f"  no part of the proof, judged in flights only: {', '.join(found.unproved)}")
         case Certainty.CERTIFIED:
             lines = [f"{name}: certified: no value in the box breaks it"]
         case Certainty.REFUTED:
@@ -105,6 +108,7 @@ def certificate_data(found: Certificate, box: Box, excerpts: Excerpts) -> dict[s
         "flights": found.flights,
         "open": found.open,
         "untold": dict(found.untold),
+        "unproved": list(found.unproved),
     }
 
 
@@ -181,9 +185,9 @@ def _unwritten(demand: Demand) -> str:
 
 def _static(is_strong: bool, is_weak: bool | None) -> str:
     if is_strong:
-        return "strongly too: one schedule does for all durations"
-    known = {True: "weakly", False: "not even weakly", None: "whether weakly is not known"}[is_weak]
-    return f"not strongly, {known}" if is_weak is not None else f"not strongly; {known}"
+        return "strongly: yes, one schedule does for all durations"
+    known = {True: "weakly: yes", False: "weakly: no", None: "weakly: not known"}[is_weak]
+    return f"strongly: no, {known}"
 
 
 def _known(holds: bool | None, plan: PlanNetwork) -> bool | None:

@@ -1,6 +1,7 @@
 """Certificates hold for flights nobody has seen, refutations fail when flown, and safe constants are the least ones."""
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from checker.oracle import Verdict, judge
 from checker.proofs.box import Point
 from checker.proofs.certify import Certainty, Certifier
 from checker.proofs.constants import places_of, safe_constant, with_value
+from runtime.executive.configuration import PropertyConfiguration, PropertyKind, TokenPattern
 from runtime.executive.outcome import Outcome
 from runtime.executive.record import MissionRecord
 from tests.checker.conditions.campaigns import campaign
@@ -93,6 +95,11 @@ def test_z3_alone_finds_the_point_where_no_corner_is_flown() -> None:
 def test_a_certificate_survives_corners_and_random_missions() -> None:
     proof = certifier(MODELS / "gps" / "mended.toml")
     assert proof.certify(corners=False).certainty is Certainty.CERTIFIED
+    kept = PropertyConfiguration("kept", PropertyKind.NEVER, TokenPattern("nav", "None"))
+    proof.agent = replace(proof.agent, properties=(kept,))
+    assert proof.certify(corners=False).certainty is Certainty.UNKNOWN
+    rules = proof.certify(corners=False, rules_only=True)
+    assert (rules.certainty, rules.unproved) == (Certainty.CERTIFIED, ("kept",))
     for point in (*proof.box.corners(), *proof.box.drawn(MOST, 99)):
         assert proof.fly(point)[2], point
 

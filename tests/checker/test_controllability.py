@@ -157,7 +157,7 @@ def test_the_command_tells_of_a_mission(mission: str, answer: bool) -> None:
 
 def test_the_command_names_the_lines_that_no_strategy_keeps() -> None:
     found = CliRunner().invoke(command, [str(GPS / "mission.toml")], standalone_mode=False)
-    assert "plan of navigator: not dynamically controllable; not strongly, not even weakly" in found.output
+    assert "plan of navigator: not dynamically controllable; strongly: no, weakly: no" in found.output
     assert "duration <= SURFACE_MAX" in found.output
     assert "takes 1 to 40" in found.output
 

@@ -220,3 +220,14 @@ def test_files_are_regular_ones(folder: Path, capsys: pytest.CaptureFixture[str]
     for name, what in (("pipe.nddl", "a device or a pipe"), ("/dev/zero", "a device or a pipe"), (".", "a directory")):
         text = MISSION.replace('"second.nddl"', f'"{name}"')
         assert found(text, capsys) == [("NDDL724", 12, f"`{name}` is {what}, not a file", "name a regular file")]
+
+
+def test_a_level_of_one_value_is_told_of(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    stored = "Reservoir battery = new Reservoir(50.0, 0.0, 90.0);\nclose();"
+    (folder / "driver.nddl").write_text(MODEL.replace("close();", stored))
+    kept = '[[property]]\nname = "charged"\nkind = "level"\nresource = "battery"\nlevel = '
+    told = ("NDDL735", "the level of `battery` would have to be 22 at all times")
+    for level, is_told in (("22", True), ("[22, 22]", True), ("[22, inf]", False), ("[-inf, 22]", False)):
+        assert (
+            told in [(code, message) for code, _, message, _ in found(f"{MISSION}{kept}{level}\n", capsys)]
+        ) is is_told

@@ -12,7 +12,8 @@ from checker.counterfactual.candidates import candidates_of
 from checker.counterfactual.damage import is_farther
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.search import is_late, sites_in
-from checker.losses import Exceeded, GoalEnd, GoalFate, Limit, Losses
+from checker.explain import result_text
+from checker.losses import Exceeded, GoalEnd, GoalFate, Limit, Losses, Repairs
 from checker.mission import read_mission
 from checker.models import ModelSet, load_models
 from checker.oracle import Verdict
@@ -20,6 +21,7 @@ from checker.pinned import pinned
 from checker.proofs.places import text_of
 from checker.rendering import step_text
 from checker.story import tell
+from runtime.executive.outcome import ReasonKind, SourcePlace
 
 pytestmark = pytest.mark.once
 
@@ -112,6 +114,17 @@ def test_the_trace_of_a_mission_that_fails_by_a_limit_is_kept(tmp_path: Path) ->
         assert result.verdict is Verdict.PASS  # the limits of [check] are applied to what is stored
         assert result.outcome is not None
         assert (result.has_trace, bool(result.outcome.events)) == (is_kept, is_kept)
+
+
+def test_a_mission_that_passed_after_repairs_has_these_to_explain(flown: tuple[ModelSet, MissionResult]) -> None:
+    _, result = flown
+    assert "nothing to explain" in result_text(result, "r")
+    place = SourcePlace("oven.nddl", 10, 3, "duration == 20;")
+    repairs = Repairs("cook", ReasonKind.GOES_ON, place, 2, 7)
+    told = result_text(replace(result, losses=Losses(repairs=(repairs,))), "r")
+    assert "; after 2 repairs of plans\n" in told
+    why = "a token went on longer than planned, by oven.nddl:10 `duration == 20;`"
+    assert f"  repaired: cook 2 times, first at tick 7: {why}\n" in told
 
 
 def test_a_mission_that_loses_more_than_it_may_is_late(flown: tuple[ModelSet, MissionResult]) -> None:
