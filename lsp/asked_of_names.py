@@ -23,7 +23,7 @@ from lsp.references import everywhere, highlights, occurrence_at
 from lsp.rename import RenameError, TextChange, assert_renamable, prepare_rename, rename
 from lsp.session import RequestFailed, Session
 from lsp.signatures import signature_help
-from lsp.symbols import outline, workspace_symbols
+from lsp.symbols import Outlines, workspace_symbols
 from nddl_lang.text.source import Span
 
 _NAMELESS = "there is no name that a model declares"
@@ -117,9 +117,10 @@ def _answer_navigation(session: Session) -> None:
         lambda view, params: highlights(view, _offset(view, params)),
         nothing=list,
     )
+    outlines = Outlines()
     session.answer(
         types.TEXT_DOCUMENT_DOCUMENT_SYMBOL,
-        lambda view, params: outline(view.parse, view.document.lines),
+        lambda view, params: outlines.outline(view.parse, view.document.lines),
         nothing=list,
         of_mission=lambda mission, params: mission_outline(mission),
     )

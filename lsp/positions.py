@@ -47,7 +47,14 @@ class Lines:
 
     def range(self, begin: int, finish: int) -> Range:
         """The stretch from `begin` to `finish`."""
-        return Range(self.position(begin), self.position(finish))
+        start = self.position(begin)
+        if self._is_plain and begin <= finish < self._end_of(start.line) and begin >= 0:
+            return Range(start, Position(start.line, start.character + finish - begin))
+        return Range(start, self.position(finish))
+
+    def _end_of(self, line: int) -> int:
+        """Where the next line begins, or the text ends."""
+        return self.starts[line + 1] if line + 1 < len(self.starts) else len(self.text)
 
     def offset(self, position: Position) -> int:
         """The offset that `position` stands for: past the end of a line, that end; inside a character, its begin."""

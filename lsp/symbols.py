@@ -2,11 +2,11 @@
 
 from collections.abc import Iterable, Iterator
 
-from lsprotocol.types import DocumentSymbol, SymbolInformation, SymbolKind
+from lsprotocol.types import DocumentSymbol, Position, SymbolInformation, SymbolKind
 
 from lsp.documents import Documents
 from lsp.occurrences import SymbolType
-from lsp.positions import Lines
+from lsp.positions import Encoding, Lines
 from nddl_lang.syntax.nodes import (
     ClassDecl,
     ConstructorDecl,
@@ -17,6 +17,7 @@ from nddl_lang.syntax.nodes import (
     NewExpr,
     PredicateDecl,
     RuleDecl,
+    Statement,
     TypedefDecl,
     VariableDecl,
 )
@@ -24,9 +25,25 @@ from nddl_lang.syntax.parser import Parse
 from nddl_lang.text.source import Span
 
 
-def outline(parse: Parse, lines: Lines) -> list[DocumentSymbol]:
-    """The declarations of the text, in order, members inside their classes."""
-    return _Outline(lines).all(parse.module.statements)
+class Outlines:
+    """Tells outlines again and again while a text is edited: what has not moved is told as before."""
+
+    def __init__(self) -> None:
+        self._known: dict[Statement, tuple[Encoding, Position, list[DocumentSymbol]]] = {}
+
+    def outline(self, parse: Parse, lines: Lines) -> list[DocumentSymbol]:
+        """The declarations of the text, in order, members inside their classes."""
+        fresh = _Outline(lines)
+        known: dict[Statement, tuple[Encoding, Position, list[DocumentSymbol]]] = {}
+        for statement in parse.module.statements:
+            begin = lines.position(statement.span.begin)
+            before = self._known.get(statement)
+            is_as_before = before is not None and before[:2] == (lines.encoding, begin)
+            known[statement] = (
+                before if before is not None and is_as_before else (lines.encoding, begin, fresh.all([statement]))
+            )
+        self._known = known
+        return [symbol for statement in parse.module.statements for symbol in known[statement][2]]
 
 
 class _Outline:

@@ -11,7 +11,7 @@ from lsp.links import page_of
 from lsp.mending import formatting, mends
 from lsp.open_text import DocumentContext
 from lsp.roots import all_roots, files_below, root_of
-from lsp.symbols import outline
+from lsp.symbols import Outlines
 from nddl_lang.syntax.incremental import common_ends
 
 MODEL = """\
@@ -82,7 +82,7 @@ def names(symbols: list[DocumentSymbol]) -> list[object]:
 
 def test_the_outline_has_members_inside_their_classes() -> None:
     _, view = view_of(MODEL.replace("HERE", "") + "goal(gps.Active first);\ntypedef int [0 3] Few;\nFew a, b;\n")
-    symbols = outline(view.parse, view.document.lines)
+    symbols = Outlines().outline(view.parse, view.document.lines)
     assert names(symbols) == [
         ("Mode", ["Internal", "External"]),
         ("Part", ["size", "Part"]),

@@ -12,7 +12,7 @@ from lsp.hover import hover_at
 from lsp.mending import formatting, mends
 from lsp.open_text import Publication
 from lsp.project import ServerSettings
-from lsp.symbols import outline
+from lsp.symbols import Outlines
 
 PART = "C::p { duration <= LIMIT; }\n"
 MAIN = '#include "base.nddl"\nint LIMIT = 3;\n#include "part.nddl"\n'
@@ -149,6 +149,7 @@ def test_nothing_that_is_typed_stops_the_answers(texts: list[str], data: st.Data
     documents.open(
         uri, 1, "class C extends Timeline { predicate p { int x; } }\nC c = new C();\nC::p { meets(p q); }\n"
     )
+    outlines = Outlines()
     for version, text in enumerate(texts, 2):
         document = documents.find(uri)
         assert document is not None
@@ -162,7 +163,7 @@ def test_nothing_that_is_typed_stops_the_answers(texts: list[str], data: st.Data
         at = data.draw(st.integers(0, len(whole)))
         hover_at(view, document.lines.position(at), conversion)
         completions(view.snapshot.analysis, view.parse, at)
-        outline(view.parse, document.lines)
+        assert outlines.outline(view.parse, document.lines) == Outlines().outline(view.parse, document.lines)
         mends(view, document.lines.range(0, len(whole)), conversion)
         formatting(view.parse, document.lines)
         fresh = Documents(ServerSettings()).open(uri, 1, whole)[0]
