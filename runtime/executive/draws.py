@@ -15,6 +15,7 @@ from runtime.user.fault import UserCodeError
 
 _NOTHING = -1
 _NEVER = 2**52
+_PLANNING = (Phase.DELIBERATE, Phase.DISPATCH)
 
 
 class World:
@@ -75,7 +76,7 @@ class World:
 
 @dataclass(frozen=True, slots=True)
 class _Drawn:
-    """Token `token`, which had `key`, holds the value of `parameter` with update index `index`."""
+    """Token `token`, which had `key`, holds the value of `parameter` with update index `index` (NOTHING: none yet)."""
 
     token: int
     key: int
@@ -94,6 +95,11 @@ class Draws:
         self.open: list[_Drawn] = []
         self.is_reactive = False  # nothing is planned behind what has not begun: it is drawn for as it begins
         self.begins: dict[int, int] = {}  # when those begin that are drawn for anew: meanwhile they have no place
+        self.is_put_off = False  # nothing is drawn for what has not begun: it keeps the range of the parameter
+        self.asks_nobody = False  # so it is always put off, unless what is drawn has to be told to an owner in time
+        self.undrawn: dict[
+            int, int
+        ] = {}  # the keys, by token, of what waits for its draw: nothing else is decided of it
 
     def draw(self, name: str, token: int) -> float | None:
         """What the plan database asks: the value of a parameter for a token (NOTHING: for the script)."""
@@ -102,9 +108,13 @@ class Draws:
             return world.draw(self.reactor, name, 0)
         tick = self._begin(token) if token >= 0 and self.view is not None else 0  # what the script makes begins at 0
         if token >= 0 and self.view is not None:
-            index = update_index(world.parameters[name], tick)
-            rows = self.view.rows
-            self.open.append(_Drawn(token, int(rows.key[token]), int(rows.predicate[token]), name, index))
+            key, predicate = int(self.view.rows.key[token]), int(self.view.rows.predicate[token])
+            if self.is_put_off or (self.asks_nobody and world.trace.phase in _PLANNING):
+                self.open.append(_Drawn(token, key, predicate, name, _NOTHING))
+                self.undrawn[token] = key
+                return None
+            self.undrawn.pop(token, None)
+            self.open.append(_Drawn(token, key, predicate, name, update_index(world.parameters[name], tick)))
         return world.draw(self.reactor, name, tick)
 
     def _begin(self, token: int) -> int:
@@ -112,9 +122,22 @@ class Draws:
         assert self.view is not None
         start = self.view.start(token)
         earliest = max(self.view.lower(start), self.begins.get(token, 0))
-        is_synchronised = self.world.trace.phase in (Phase.DELIBERATE, Phase.DISPATCH)
+        is_synchronised = self.world.trace.phase in _PLANNING
         next_tick = self.world.trace.tick + is_synchronised
         return int(max(earliest, 0 if self.view.upper(start) < next_tick else next_tick))
+
+    def waiting(self, view: PlanView, tick: int) -> list[int]:
+        """Tokens in the plan that hold a value and begin after `tick`."""
+        return list(
+            dict.fromkeys(
+                each.token
+                for each in self.open
+                if each.index != _NOTHING
+                and view.is_alive(each.token, each.key)
+                and view.is_active(each.token)
+                and not view.is_started(each.token, tick)
+            )
+        )
 
     def outdated(self, view: PlanView, tick: int) -> list[int]:
         """Tokens that have not begun by `tick` and hold a value that is no longer, or not yet, in force then.

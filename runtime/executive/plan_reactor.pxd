@@ -13,7 +13,7 @@ from runtime.executive.synchronise cimport synchronise
 from runtime.executive.timelines cimport TimelineState
 from runtime.executive.workbench cimport Workbench
 
-cdef long long EPISODE_DONE, EPISODE_MOVED, EPISODE_TOO_DEEP, NOTHING
+cdef long long EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_MOVED, EPISODE_TOO_DEEP, NOTHING
 
 
 cdef class PlanReactor(TeleoReactor):
@@ -45,7 +45,6 @@ cdef class PlanReactor(TeleoReactor):
     )
     cpdef object synchronise(self, long long tick)
 
-    @cython.locals(token="long long")
     cpdef object _prepare(self, long long tick)
 
     @cython.locals(mark="long long")

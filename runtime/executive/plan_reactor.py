@@ -10,9 +10,10 @@ from runtime.executive.holding import is_blocked
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, ElementKind, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
 from runtime.executive.past import Past
-from runtime.executive.planning import EPISODE_DONE, EPISODE_MOVED, EPISODE_TOO_DEEP, Planner
+from runtime.executive.planning import EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_MOVED, EPISODE_TOO_DEEP, Planner
 from runtime.executive.reactor import Failure, Refusal, SyncFailure, TeleoReactor, Watched, conflicts_beside
 from runtime.executive.record import ReactorRecord
+from runtime.executive.redrawing import draw_anew, leave_open
 from runtime.executive.repair import relax
 from runtime.executive.story import conflict_of, latest
 from runtime.executive.synchronise import synchronise
@@ -72,6 +73,8 @@ class PlanReactor(TeleoReactor):
         self.dispatch.owner_windows = windows
         self.reach = execution_latency + max(self.lookahead, 1)
         self.planner.window.is_reactive = self.draws.is_reactive = self.lookahead <= 1
+        asked = [line for line in self.timelines if line.accepts_requests and not line.is_internal]
+        self.draws.asks_nobody, self.planner.window.undrawn = self.lookahead <= 1 and not asked, self.draws.undrawn
 
     # ---- the tick ----
 
@@ -86,7 +89,7 @@ class PlanReactor(TeleoReactor):
         if not self.is_out_of_steps():
             self._rest(tick)
         self.decisions_made = 0
-        self.is_stirred = self.is_halted = False
+        self.is_stirred = self.is_halted = self.draws.is_put_off = False
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published this tick; the last word counts. What cannot matter waits.
@@ -192,12 +195,9 @@ class PlanReactor(TeleoReactor):
 
     def _prepare(self, tick: int) -> SyncFailure | None:
         """Draw anew what was drawn for a tick at which its token does not begin."""
-        for token in self.draws.outdated(self.bench, tick):
-            if not self.bench.renew(token):
-                self.draws.begins = {}
-                return SyncFailure("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))
-        self.draws.begins = {}
-        return None
+        if draw_anew(self.bench, self.draws, self.goals, tick):
+            return None
+        return SyncFailure("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))
 
     def _synchronise(self, tick: int) -> SyncFailure | None:
         """Synchronise the present, or leave the plan as it was."""
@@ -317,6 +317,10 @@ class PlanReactor(TeleoReactor):
         if outcome != EPISODE_DONE:
             self.decisions_made += 1  # to find no plan, or none deep enough, took a step, too
         if outcome == EPISODE_MOVED:
+            return True
+        if (outcome == EPISODE_EXHAUSTED or self.goals.missed()) and leave_open(
+            self.bench, self.draws, self.goals, tick
+        ):
             return True
         if outcome == EPISODE_DONE:
             self._rest(tick)

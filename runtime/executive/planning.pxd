@@ -12,6 +12,7 @@ cdef long long _MOST_STEPS, _NEVER, _NO_LIMIT, PLAN, ROLE_LOCAL, ROLE_TOKEN, SPA
 
 
 cdef class _Window(PlanningScope):
+    cdef public dict undrawn
     cdef public Workbench bench
     cdef public long long tick, end, final
     cdef public bint is_present, is_reactive

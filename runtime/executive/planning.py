@@ -46,6 +46,7 @@ class _Window(PlanningScope):
         self.final = 0
         self.is_present = False
         self.is_reactive = False
+        self.undrawn: dict[int, int] = {}  # the keys of tokens, by number, for which nothing is drawn yet
         self.ignored = {o for o in range(len(bench.database.objects.names)) if bench.mode(o) == "Ignore"}
 
     def admits_token(self, t: int) -> bool:
@@ -61,7 +62,8 @@ class _Window(PlanningScope):
                 return False  # what can begin at the end at the earliest is not begun
             return bench.upper(start) <= self.tick < bench.upper(bench.end(t))
         earliest = bench.lower(start)
-        if self.is_reactive and earliest > self.tick and bench.is_internal(t) and not bench.is_due_to_request(t):
+        is_to_begin = self.is_reactive and bench.upper(start) > self.tick
+        if is_to_begin and bench.is_internal(t) and not bench.is_due_to_request(t):
             return False
         return earliest <= self.end and earliest < self.final
 
@@ -99,7 +101,9 @@ class _Window(PlanningScope):
         """Whether `v` is to be decided now: globals always, others with their token."""
         plan = self.bench.plan
         if plan.variable_role[v] in (ROLE_TOKEN, ROLE_LOCAL):
-            return self.admits_token(plan.variable_owner[v])
+            t = int(plan.variable_owner[v])
+            is_undrawn = self.undrawn and self.undrawn.get(t) == self.bench.rows.key[t]
+            return not is_undrawn and self.admits_token(t)
         return not self.is_present
 
 

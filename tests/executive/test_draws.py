@@ -1,5 +1,7 @@
 """Sampled parameters in flight: one value per mission, or a new one at each update, whatever the planner tries."""
 
+from dataclasses import replace
+
 import pytest
 
 from runtime.executive.chance import sample
@@ -111,34 +113,79 @@ def test_a_command_that_begins_later_than_it_might_has_the_draw_of_the_tick_at_w
         assert float(begun.partition("d=")[2].rstrip(")")) == drawn[28]
 
 
-def test_what_is_drawn_while_a_command_waits_rules_nothing_out() -> None:
-    # The first command holds from 1 to 11. What is drawn meanwhile would not do for the second; what is drawn at 9 does
-    arm = """
-    float LOAD = [0.0 1.0];
-    class Arm extends AgentTimeline {
-        predicate Rest { }
-        predicate Do { int n; bool full; }
-        Arm(Mode m) { super(m, "Rest"); }
-    }
-    Arm::Do { float load; load == sampledParameter(LOAD); full == (load > 0.4); duration == 10; }
-    Arm arm = new Arm(Internal); close();
-    """
-    goals = (
-        GoalConfiguration("arm", "Do", 0, False, (1.0, 1.0), parameters=(("n", 1),)),
-        GoalConfiguration("arm", "Do", 2, False, (3.0, 30.0), parameters=(("n", 2), ("full", False))),
-    )
-    load = ParameterConfiguration("LOAD", 0.0, 1.0, mode="intra", update=3)
-    waited = 0
-    for seed in range(12):
-        ways = [
-            flown(simulator("arm", arm, "arm"), until=40, goals=goals, parameters=(load,), seed=seed, compiles=each)
-            for each in (True, False)
-        ]
-        assert all(each.report.holds for each in ways)
-        begun, general = (history(each.outcome, "arm") for each in ways)
-        assert begun == general
-        drawn = [sample(load, seed, tick).value for tick in (3, 6, 9)]
-        if drawn[0] <= 0.4 < drawn[1] and drawn[2] <= 0.4:
-            waited += 1
-            assert any(line.startswith("11 ") and "n=2" in line for line in general)
-    assert waited
+ARM = """
+float LOAD = [0.0 1.0];
+class Arm extends AgentTimeline {
+    predicate Rest { }
+    predicate Do { int n; bool full; }
+    Arm(Mode m) { super(m, "Rest"); }
+}
+Arm::Do { float load; load == sampledParameter(LOAD); full == (load > 0.4); duration == LENGTH; }
+Arm arm = new Arm(Internal); close();
+"""
+LOAD = ParameterConfiguration("LOAD", 0.0, 1.0, mode="intra", update=3)
+
+
+def done(tick: int, n: int, start: tuple[float, float], *full: bool) -> GoalConfiguration:
+    """A command of the arm: when it is sent, its number, when it may begin, and whether the arm is to be full."""
+    return GoalConfiguration("arm", "Do", tick, False, start, parameters=(("n", n), *(("full", one) for one in full)))
+
+
+def in_all_ways(length: str, goals: tuple[GoalConfiguration, ...], seed: int, update: int = 3) -> Outcome:
+    """Forty ticks of the arm: by register code, by the general engine, and with every tick visited."""
+    text, load = ARM.replace("LENGTH", length), replace(LOAD, update=update)
+    ways = [
+        flown(
+            simulator("arm", text, "arm"),
+            until=40,
+            goals=goals,
+            parameters=(load,),
+            seed=seed,
+            compiles=compiles,
+            every_tick=every,
+        )
+        for compiles, every in ((True, False), (False, False), (True, True))
+    ]
+    assert all(each.report.holds for each in ways)
+    told = [[line for line in lines(each.outcome) if " sample " not in line] for each in ways]
+    assert told[0] == told[1] == told[2]
+    return ways[0].outcome
+
+
+@pytest.mark.parametrize("is_busy", [False, True])
+def test_a_command_begins_at_the_first_tick_of_its_window_at_which_what_is_drawn_lets_it(is_busy: bool) -> None:
+    goals = (done(0, 1, (1.0, 1.0)), done(2, 2, (3.0, 30.0), False))[not is_busy :]
+    free = 11 if is_busy else 3
+    begun, given_up = 0, 0
+    for seed in range(9):
+        outcome = in_all_ways("10", goals, seed)
+        fitting = [tick for tick in range(free, 31) if sample(LOAD, seed, tick).value <= 0.4]
+        found = [int(line.partition(" ")[0]) for line in history(outcome, "arm") if "n=2" in line]
+        assert found == fitting[:1]
+        assert lines(outcome, "relax") == []
+        assert [line.partition(" ")[0] for line in lines(outcome, "reject")] == ([] if fitting else ["30"])
+        begun, given_up = begun + (fitting[:1] > [free]), given_up + (not fitting)
+    assert begun and given_up >= is_busy
+
+
+def test_what_is_drawn_for_a_command_that_waits_leaves_no_other_without_room() -> None:
+    # However long the first lasts, there is room for two short ones behind it: which are short is drawn as they begin.
+    goals = (done(0, 1, (1.0, 1.0)), done(2, 2, (3.0, 30.0)), done(4, 3, (5.0, 24.0)))
+    begun = []
+    for seed in range(9):
+        outcome = in_all_ways("floor(load * 20.0) + 1", goals, seed, 8)
+        first_over = 2 + int(sample(replace(LOAD, update=8), seed, 1).value * 20.0)
+        assert all(int(line.partition(" ")[0]) >= first_over for line in lines(outcome, "reject"))
+        assert lines(outcome, "relax") == []
+        begun.append(len([line for line in history(outcome, "arm") if "Do(" in line]))
+    assert {2, 3} <= set(begun)
+
+
+def test_a_fact_to_come_is_drawn_for_as_it_begins_whichever_ticks_are_visited() -> None:
+    text = ARM.replace("LENGTH", "3") + "fact(arm.Do d); d.start >= 25; d.start <= 38;"
+    ways = [
+        flown(simulator("arm", text, "arm"), until=60, parameters=(LOAD,), seed=3, every_tick=every)
+        for every in (False, True)
+    ]
+    assert lines(ways[0].outcome) == lines(ways[1].outcome)
+    assert [draw.tick for draw in ways[0].outcome.draws] == [36]

@@ -1,0 +1,60 @@
+"""Draw anew for what begins at another tick than it was planned for; in a simulator no draw rules out what waits.
+
+What holds for a token is drawn at the tick at which it begins (T-REX 3.4), so a draw of an earlier tick decides neither
+whether a command is taken in nor what else finds room behind it.
+"""
+
+from runtime.executive.draws import Draws
+from runtime.executive.goals import Goals
+from runtime.executive.view import SPAN_CLOCK
+from runtime.executive.workbench import Workbench
+
+
+def draw_anew(bench: Workbench, draws: Draws, goals: Goals, tick: int) -> bool:
+    """Draw again for tokens that do not begin at the tick they were drawn for; false on conflict."""
+    holds = True
+    for token in draws.outdated(bench, tick):
+        if not bench.is_active(token):
+            continue  # it has made way
+        holds = bench.renew(token)
+        if not holds and draws.is_reactive:
+            holds = _begin_first(bench, goals, token, tick) or _put_off(bench, draws, token, tick)
+        if not holds:
+            break
+    draws.begins = {}
+    return holds
+
+
+def _begin_first(bench: Workbench, goals: Goals, token: int, tick: int) -> bool:
+    """Let what else was asked for and waits make way for a token that may begin now; it is planned again."""
+    own = token
+    while (parent := bench.parent(own)) >= 0:
+        own = parent
+    for goal in goals.live():
+        other = goal.token
+        if other != own and bench.is_alive(other, goal.token_key) and bench.is_waiting(other, tick):
+            bench.cancel(other)
+    return bench.renew(token)
+
+
+def _put_off(bench: Workbench, draws: Draws, token: int, tick: int) -> bool:
+    """Let a token wait whose draw does not let it begin now; a goal whose time is over is left undecided."""
+    if bench.upper(bench.start(token)) <= tick:
+        return bench.is_goal(token) and bench.cancel(token)
+    draws.is_put_off = True
+    holds = bench.renew(token)
+    draws.is_put_off = False
+    return holds and bench.at_least(bench.start(token), tick + 1, SPAN_CLOCK, token)
+
+
+def leave_open(bench: Workbench, draws: Draws, goals: Goals, tick: int) -> bool:
+    """Whether to plan again with nothing drawn for what begins after `tick`; it is drawn for as it begins."""
+    if draws.is_put_off or not draws.is_reactive or not draws.open:
+        return False
+    draws.is_put_off = True
+    for token in draws.waiting(bench, tick):
+        bench.renew(token)
+    for token in goals.missed():
+        goals.rejections.pop(token, None)
+        bench.cancel(token)
+    return True
