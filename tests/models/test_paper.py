@@ -1,8 +1,12 @@
-"""What the founding paper says of its parts, in the INL survey (rows 5, 12, 15, 16 and 18 of the reference)."""
+"""What the founding paper says of its parts, in the INL survey (rows 5, 7, 12, 15, 16 and 18 of the reference)."""
 
+import os
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
+from shutil import copytree
 from statistics import median
+from time import process_time
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -11,6 +15,8 @@ from numpy.typing import NDArray
 
 from checker.mission import read_mission
 from checker.models import load_models
+from nddlc.main import run
+from runtime.executive.columns import TokenColumns
 from runtime.executive.events import EventLog
 from runtime.executive.mission import record_mission, run_mission
 from runtime.executive.outcome import Event, EventKind, Outcome
@@ -81,6 +87,30 @@ def test_eight_lines_are_flown_as_eight_legs_and_four_stops_for_a_fix() -> None:
     assert len(seen(outcome, "path", "Transect")) == len(seen(outcome, "nav", "Go")) == 8
     assert len(seen(outcome, "path", "FixStop")) == 4
     assert sum("YoYo" in kind(event) for event in seen(outcome, "helm", "Run")) >= 8
+
+
+def test_six_hours_are_simulated_without_search_in_two_minutes_of_a_core() -> None:
+    mission, _ = read_mission(MODELS / "auv/inl/mission.toml")
+    assert mission is not None
+    agent = load_models(mission).agent
+    ticks = 21_600 if "NDDLC_PROOFS" in os.environ else 2_160
+    programs = programs_of(agent)
+    began = process_time()
+    outcome, record = record_mission(agent, programs, 1, NOMINAL, until=ticks)
+    assert process_time() - began < 120 * ticks / 21_600
+    assert outcome.last_tick == ticks and outcome.abort is None
+    (vehicle,) = (one for one in record.reactors if one.reactor == "psim")
+    assert isinstance(vehicle.tokens, TokenColumns)  # register code to the end: no plan database has taken over
+    assert len(vehicle.tokens) > ticks
+
+
+def test_without_the_simulator_the_rest_loads(tmp_path: Path) -> None:
+    copytree(MODELS / "auv", tmp_path / "auv")
+    for file in (tmp_path / "auv").rglob("psim.nddl"):
+        file.unlink()
+    rest = sorted((tmp_path / "auv").rglob("*.nddl"))
+    assert len(rest) > 5
+    assert all(run(["lint", str(file)]) == 0 for file in rest)
 
 
 def test_a_larger_hit_rate_is_a_longer_time_at_the_surface_on_the_same_path() -> None:
