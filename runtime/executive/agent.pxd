@@ -1,12 +1,14 @@
 # The C types of `agent.py`.
 
 cimport cython
+from runtime.executive.clocks cimport FastClock
 from runtime.executive.reactor cimport TeleoReactor
 from runtime.executive.trace cimport Trace
 
 
 cdef class Agent:
-    cdef public object clock, configuration, poster
+    cdef public FastClock clock
+    cdef public object configuration, poster
     cdef public Trace trace
     cdef public bint every_tick
     cdef public list reactors, ahead, awake, killed, stirred

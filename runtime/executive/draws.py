@@ -144,6 +144,9 @@ class Draws:
 
         Until `begins` is emptied, what is drawn for them is what is in force when they begin.
         """
+        if not self.open:
+            self.begins = {}
+            return []
         found: dict[int, int] = {}
         left = []
         for each in self.open:
@@ -165,6 +168,8 @@ class Draws:
 
         That is the very next one where the token has been moved since, as when others were put in front of it.
         """
+        if not self.open:
+            return inf
         times = [inf]
         for each in self.open:
             if view.is_alive(each.token, each.key) and not view.is_started(each.token, tick):

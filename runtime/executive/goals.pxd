@@ -16,6 +16,18 @@ cdef class Goals:
     cdef public dict lines, rejections, given_up
     cdef public bint is_changed
 
+    cpdef bint has_news(self, long long reach) except -1
+
+    cpdef bint take_in(self, long long tick, long long reach) except -1
+
+    @cython.locals(found=list, goal=Goal)
+    cpdef list missed(self)
+
+    @cython.locals(found=double, goal=Goal)
+    cpdef double next_expiry(self) except? -1.0
+
+    cpdef bint _may_come_back(self, Goal goal) except -1
+
     @cython.locals(goal=Goal, is_rejected=bint)
     cpdef object report_rejected(self, long long tick)
 

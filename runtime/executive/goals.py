@@ -47,7 +47,7 @@ class Goals:
 
     def has_news(self, reach: int) -> bool:
         """Whether there is something to take in that may start by `reach`, or to take back."""
-        return bool(self.to_recall) or any(request.start[0] <= reach for request in self.waiting)
+        return bool(self.to_recall or [request for request in self.waiting if request.start[0] <= reach])
 
     def take_in(self, tick: int, reach: int) -> bool:
         """Carry out recalls, and post what may start by `reach`, earliest first; whether the plan has changed."""
@@ -59,7 +59,7 @@ class Goals:
         if self.has_news(reach):
             due = [request for request in self.waiting if request.start[0] <= reach]
             self.waiting = [request for request in self.waiting if request.start[0] > reach]
-            for request in sorted(due, key=lambda one: one.start[0]):
+            for request in sorted(due, key=_earliest):
                 self._post(request, tick)
         return self.is_changed
 
@@ -179,7 +179,7 @@ class Goals:
 
     def missed(self) -> list[int]:
         """The goals that the planner has just rejected, whoever asked."""
-        found = []
+        found: list[int] = []
         for goal in self.posted:
             if not (goal.is_closed or goal.is_rejected) and self.bench.is_alive(goal.token, goal.token_key):
                 if self.bench.is_rejected(goal.token):
@@ -201,10 +201,11 @@ class Goals:
 
     def next_expiry(self) -> float:
         """The first tick at which a goal that is rejected can begin no more, and does not come back."""
-        return min(
-            (self.bench.upper(self.bench.start(goal.token)) for goal in self.posted if self._may_come_back(goal)),
-            default=INFINITY,
-        )
+        found: float = INFINITY
+        for goal in self.posted:
+            if goal.is_rejected and self._may_come_back(goal):
+                found = min(found, self.bench.upper(self.bench.start(goal.token)))
+        return found
 
     def _may_come_back(self, goal: Goal) -> bool:
         is_rejected = goal.is_rejected and not goal.is_closed and self.bench.is_alive(goal.token, goal.token_key)
@@ -324,6 +325,10 @@ class Goals:
             return found
         why = Reason(ReasonKind.CUT_LOOSE, repair=repair.reason)
         return replace(found, reason=why, event=repair.event, conflict=repair.conflict, deadlock=repair.deadlock)
+
+
+def _earliest(request: Request) -> int:
+    return request.start[0]
 
 
 def _open_goal(request: Request) -> OpenGoal:

@@ -35,13 +35,13 @@ cdef class PlanReactor(TeleoReactor):
     cpdef object notify(self, observation)
 
     @cython.locals(
-        bench=Workbench, earliest=double, first="long long", is_due=bint, is_metered=bint, line=TimelineState,
+        bench=Workbench, first="long long", is_due=bint, is_metered=bint, line=TimelineState,
         soonest=double, token="long long",
     )
     cpdef long long next_tick(self, long long tick) except? -1
 
     @cython.locals(
-        attempt="long long", causes=tuple, events=tuple, failures=list, line=TimelineState, lines=tuple, watched=tuple
+        attempt="long long", causes=tuple, events=list, failures=list, line=TimelineState, lines=tuple, watched=tuple
     )
     cpdef object synchronise(self, long long tick)
 

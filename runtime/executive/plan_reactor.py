@@ -131,20 +131,16 @@ class PlanReactor(TeleoReactor):
                     soonest = min(soonest, bench.lower(bench.start(token)))
             else:
                 soonest = min(soonest, self.dispatch.next_due(line, tick))
-        for token in bench.undecided():
-            soonest = min(soonest, bench.upper(bench.start(token)))
+        soonest = min(soonest, bench.last_start())
         # Where steps are counted it counts when each variable of a token is decided, too.
         is_metered = self.is_metered or self.max_steps is not None
-        for token in bench.all_tokens() if is_metered else bench.undecided() + bench.unordered():
-            earliest = bench.lower(bench.start(token))
-            if earliest > tick + self.reach:
-                soonest = min(soonest, earliest - self.reach)
+        soonest = min(soonest, bench.next_within(tick, self.reach, is_metered))
         return int(max(tick + 1, soonest))
 
     def synchronise(self, tick: int) -> Failure | None:
         """Synchronise the present; if that fails, repair: first keep the past, then forget it (T-REX 1.4, 1.9)."""
-        causes = tuple([line.news.event for line in self.timelines if line.news is not None])
-        events = tuple([line.event for line in self.timelines if line.event != NOTHING and not line.is_internal])
+        causes: tuple[int, ...] = ()
+        events: list[int] = []
         failures: list[SyncFailure] = []
         watched: tuple[Watched, ...] = ()
         self.dispatch.note_begun()
@@ -181,6 +177,8 @@ class PlanReactor(TeleoReactor):
                 return None
             failures.append(failure)
             if attempt == 0:
+                causes = tuple([line.news.event for line in self.timelines if line.news is not None])
+                events = [line.event for line in self.timelines if line.event != NOTHING and not line.is_internal]
                 watched = self._watched(failure.conflict)
                 self.goals.note_failed_starts(self.dispatch.answered())
         self.bench.recorder.is_lost = True
@@ -188,7 +186,7 @@ class PlanReactor(TeleoReactor):
         repairs = conflicts_beside(first.conflict, failures[1:])
         lines = first.timelines or tuple([line.name for line in self.timelines if line.is_internal])
         refusals = self.dispatch.refusals() if first.code == "F6" else ()
-        causes = refusals or causes or events[:1]
+        causes = refusals or causes or tuple(events[:1])
         return Failure(
             first.code, first.reason, lines, first.conflict, self.relaxes, repairs, causes, watched, first.deadlock
         )

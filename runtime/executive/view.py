@@ -7,7 +7,7 @@ from math import inf
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START, DomainConstant
 from runtime.constraints.domains.sparse_set import SparseSet
 from runtime.constraints.domains.tags import KIND_BOOL, KIND_FLOAT, KIND_INT, KIND_STRING
-from runtime.executive.messages import Arguments, make_domain
+from runtime.executive.messages import Arguments, draft_of, make_domain
 from runtime.executive.recorder import Recorder
 from runtime.executive.timelines import TimelineState
 from runtime.plan.database import PlanDatabase
@@ -32,6 +32,7 @@ from runtime.plan.tags import (
 
 # Spans of what no line of the model says: the executive's own reasons.
 SPAN_OBSERVATION, SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_REQUEST, SPAN_MISSION = -2, -3, -4, -5, -6
+_NameDraft = draft_of(TokenName)
 
 
 def whole_bound(bound: float) -> int:
@@ -108,7 +109,11 @@ class PlanView:
 
     def name_of(self, t: int) -> TokenName:
         """The name of a token for reports; it outlives the token."""
-        return TokenName(self.predicate_name(self.rows.predicate[t]), self.key(t))
+        name = _NameDraft()
+        name.predicate = self.predicate_name(self.rows.predicate[t])
+        name.key = self.key(t)
+        name.__class__ = TokenName
+        return name  # type: ignore[no-any-return]
 
     def predicate_name(self, predicate: int) -> str:
         """`Class.predicate`."""
@@ -271,6 +276,32 @@ class PlanView:
         live = [(rows.key[t], t) for t in range(rows.token_count) if rows.status[t] != FREED]
         live.sort()
         return [t for _, t in live]
+
+    def last_start(self) -> float:
+        """The first tick that is the latest start of a token that is still to be decided; inf where there is none."""
+        rows, found = self.rows, inf
+        t = rows.head_first[HEAD_OPEN]
+        while t >= 0:
+            found = min(found, self.engine.upper(rows.var0[t] + START))
+            t = rows.link_after[LISTS * t + LIST_OPEN]
+        return found
+
+    def next_within(self, tick: int, reach: int, is_any: bool) -> int:
+        """The first tick after `tick` whose window, `reach` ticks long, has in it a token that is not in it at `tick`.
+
+        What is decided and has its place does not count, unless `is_any`.
+        """
+        rows, earliest = self.rows, self.engine.lb
+        last, found = tick + reach, INFINITY
+        for t in range(rows.token_count):
+            if rows.status[t] == FREED:
+                continue
+            if not is_any and rows.link_head[LISTS * t + LIST_OPEN] < 0 and rows.link_head[LISTS * t + LIST_THREAT] < 0:
+                continue
+            start = earliest[rows.var0[t] + START]
+            if last < start < found:
+                found = start
+        return found - reach
 
     def unplaced(self, tick: int) -> list[int]:
         """Tokens that are in no sequence yet and may start by `tick` as well as later.

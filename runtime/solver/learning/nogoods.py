@@ -28,10 +28,13 @@ class Nogoods:
         self.stack = stack
         # One name means many things in a loop, and where objects are made.
         self.is_usable = not any(has_any(rule.body, (ObjectLoop, NewObject)) for rule in program.rules)
+        self.is_recording = True
         self.clear()
 
     def clear(self) -> None:
         """Forget everything: the plan was changed from outside."""
+        if not self.is_recording:
+            return  # there is nothing
         self.is_recording = False
         self.numbers: dict[Any, int] = {}
         self.made: list[int] = []  # the choice of each decision in force, NONE for one without a name
