@@ -19,7 +19,8 @@ from runtime.solver.configuration.read_toml import is_solver_toml
 
 # All that is wrong with a text of that name in that folder; whether the workspace is trusted.
 Examine = Callable[[Source, Path, bool], Iterable[Diagnostic]]
-_SUFFIX = ".toml"
+_SUFFIX, _AGENT_SUFFIX = ".toml", ".xml"
+_AGENT = re.compile(r"<Agent\b")
 _BEGUN = re.compile(r"[ \t]*\[\[?(?=[^\]\n]*\Z)")  # a header that is not closed yet
 KEY = re.compile(r"""^[ \t]*([A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')[ \t]*=""", re.MULTILINE)
 _MODEL = re.compile(r"""^[ \t]*model[ \t]*=[ \t]*["']([^"'\n]+)["']""", re.MULTILINE)
@@ -44,6 +45,11 @@ class OpenMission:
     def text(self) -> str:
         """Its characters."""
         return self.lines.text
+
+    @property
+    def is_agent_file(self) -> bool:
+        """Whether it is an agent file of T-REX: of that only what is wrong is told."""
+        return self.path.suffix == _AGENT_SUFFIX
 
     @property
     def models(self) -> list[Path]:
@@ -157,7 +163,7 @@ class MissionTexts:
     @staticmethod
     def is_mission(uri: str) -> bool:
         """Whether a file may be a mission file, by its name."""
-        return uri.endswith(_SUFFIX) and path_of(uri) is not None
+        return uri.endswith((_SUFFIX, _AGENT_SUFFIX)) and path_of(uri) is not None
 
     def find(self, uri: str) -> OpenMission | None:
         """The open mission file that the editor calls `uri`."""
@@ -168,12 +174,15 @@ class MissionTexts:
         return list(self._open.values())
 
     def open(self, uri: str, version: int, text: str) -> OpenMission | None:
-        """A text is open now; None where it is a TOML that is none of nddlc's, as far as its name and its head tell."""
+        """A text is open now; None where it is a TOML or XML that is none of nddlc's, as far as name and head tell."""
         path = path_of(uri)
         if path is None:
             return None
         has_name = path.name in _CONFIGURATIONS or any(word in path.name.lower() for word in _WORDS)
-        if not has_name and _MISSION.search(text) is None and not is_solver_toml(text):
+        if path.suffix == _AGENT_SUFFIX:
+            if _AGENT.search(text) is None:
+                return None
+        elif not has_name and _MISSION.search(text) is None and not is_solver_toml(text):
             return None
         found = self._open[uri] = OpenMission(uri, path, version, Lines(text, self._encoding))
         return found

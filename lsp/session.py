@@ -274,6 +274,8 @@ class Session(LanguageServer):
             if view is not None:
                 return answer(view, params)
             mission = self.missions.find(uri) if of_mission is not None else None
-            return of_mission(mission, params) if of_mission is not None and mission is not None else nothing()
+            if of_mission is None or mission is None or mission.is_agent_file:
+                return nothing()
+            return of_mission(mission, params)
 
         self.feature(feature, options)(handler)

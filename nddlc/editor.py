@@ -70,7 +70,8 @@ def examine_for_editor(source: Source, root: Path, is_trusted: bool) -> tuple[Di
 
 
 def _complaints(source: Source, root: Path, is_trusted: bool) -> Iterator[Diagnostic]:
-    if "solver" in Path(source.name).name.lower() or is_solver_toml(source.text):
+    is_agent_file = source.name.endswith(".xml")
+    if not is_agent_file and ("solver" in Path(source.name).name.lower() or is_solver_toml(source.text)):
         yield from named("runtime.solver.configuration.read:read_configuration")(source)[1]
         return
     mission, found = named("checker.mission:parse_mission")(source, root)

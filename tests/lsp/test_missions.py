@@ -307,3 +307,20 @@ def test_a_closed_mission_file_is_read_again_once_it_has_changed(opened: tuple[A
         found = client.ask_at("references", model, line, character, context={"includeDeclaration": True})
         counts.append(sum(place["uri"].endswith("other.toml") for place in found))
     assert counts == [1, 0, 1]
+
+
+AGENT = """<?xml version="1.0"?>
+<Agent name="one" finalTick="60">
+  <EuropaReactor name="all" latency="0" lookahead="60" model="model.nddl"><Internal name="gps"/></EuropaReactor>
+  <Goal on="gps" pred="Busy"><Variable name="start"><int min="5" max="10"/></Variable></Goal>
+</Agent>
+"""
+
+
+def test_an_agent_file_is_told_of_as_a_mission_file_is(client: Any, tmp_path: Path) -> None:
+    (tmp_path / "model.nddl").write_text(MODEL)
+    client.start(folder=tmp_path)
+    uri = (tmp_path / "agent.xml").as_uri()
+    told = client.open(uri, AGENT.replace('on="gps" pred="Busy"', 'on="gps" pred="Bussy"'))["diagnostics"]
+    assert [(each["code"], each["range"]["start"]["line"]) for each in told] == [("NDDL717", 3)]
+    assert client.ask_at("hover", uri, 3, 10) is None

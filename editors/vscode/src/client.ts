@@ -27,6 +27,7 @@ export function makeClient(): LanguageClient {
       { scheme: "file", pattern: "**/mission*.toml" },
       { scheme: "file", pattern: "**/*solver*.toml" },
       { scheme: "file", pattern: "**/nddlc.toml" },
+      { scheme: "file", language: "xml" },
     ],
     initializationOptions: {
       includeDirectories: settings.get<string[]>("includeDirectories", []).map(withFolder),
