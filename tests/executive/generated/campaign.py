@@ -10,9 +10,11 @@ from tests.executive.generated.writer import random_agent
 PLAIN = 4  # so many agents in a row, one can be written as an agent file of T-REX
 
 
-def faults_of_seed(seed: int, wide: bool = False, rich: bool = False, deep: bool = False) -> tuple[str, list[str]]:
+def faults_of_seed(
+    seed: int, wide: bool = False, rich: bool = False, deep: bool = False, replays: bool = False
+) -> tuple[str, list[str]]:
     """How the agent of a seed ended, and what is wrong about its flights."""
-    outcome, wrong = faults_of(random_agent(seed, seed % PLAIN == 0, wide, rich, deep))
+    outcome, wrong = faults_of(random_agent(seed, seed % PLAIN == 0, wide, rich, deep), replays)
     codes = [event.code for event in outcome.events if event.code]
     return codes[0] if codes else "ended", wrong
 
@@ -29,7 +31,7 @@ def main() -> int:
     codes: Counter[str] = Counter()
     wrong = 0
     for seed in range(given.first, given.first + given.count):
-        code, faults = faults_of_seed(seed, given.wide, given.rich, given.deep)
+        code, faults = faults_of_seed(seed, given.wide, given.rich, given.deep, replays=True)
         codes[code] += 1
         wrong += bool(faults)
         for fault in faults:

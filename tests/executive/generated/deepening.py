@@ -27,6 +27,9 @@ def deepened(deep: random.Random, agent: RandomAgent) -> RandomAgent:
             found = replace(found, paced=True)
         if line.kind == "command" and deep.random() < 0.4:
             found = replace(found, placed=True)
+        moods = random.Random(f"{agent.name} {line.name}")
+        if found.drawn and found.period and moods.random() < 0.4:
+            found = replace(found, latest=moods.randint(0, found.drawn - 1))
         changed[line.name] = found
         return found
 

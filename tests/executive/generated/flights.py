@@ -1,6 +1,8 @@
 """Fly random agents in every way there is, and put them to the oracle."""
 
 import json
+from contextlib import redirect_stderr, redirect_stdout
+from io import StringIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -10,6 +12,7 @@ from checker.judge.rendering import disagreement_text
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.oracle import judge
+from nddlc.main import run
 from runtime.executive.clocks import LogClock, StepClock
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, record_mission, run_mission
@@ -52,10 +55,22 @@ def without_places(data: Any) -> Any:
     return [without_places(one) for one in data] if isinstance(data, list) else data
 
 
-def faults_of(agent: RandomAgent) -> tuple[Outcome, list[str]]:
-    """One flight of an agent, and what is wrong about it."""
+def replayed(file: Path) -> str:
+    """What `nddlc replay` says of the trace of `nddlc run`; empty if it is the same flight again."""
+    trace, said = file.with_name("trace.jsonl"), StringIO()
+    with redirect_stdout(said), redirect_stderr(said):
+        run(["run", str(file), "--seed", "1", "--trace", str(trace)])
+        said.seek(0)
+        said.truncate()
+        code = run(["replay", "--trust", str(trace)])
+    return "" if code == 0 else f"by `nddlc replay` it is another flight: {' '.join(said.getvalue().split())[:200]}"
+
+
+def faults_of(agent: RandomAgent, replays: bool = False) -> tuple[Outcome, list[str]]:
+    """One flight of an agent, and what is wrong about it; `replays`: by the commands too."""
     with TemporaryDirectory() as folder:
-        configuration, programs = loaded(agent.write(Path(folder)))
+        file = agent.write(Path(folder))
+        configuration, programs = loaded(file)
         outcome, record = record_mission(configuration, programs, 1)
         report = judge_mission(configuration, programs.programs, outcome, record, programs.constraints)
         wrong = [f"the judge: {disagreement_text(one)}" for one in report.disagreements]
@@ -68,6 +83,8 @@ def faults_of(agent: RandomAgent) -> tuple[Outcome, list[str]]:
         logged = record_mission(configuration, programs, 1, clock=LogClock(clock.counts))[0]
         if not told(counted) == told(logged) == told(outcome):
             wrong.append("by a log of its steps it is another flight")
+        if replays and (said := replayed(file)):
+            wrong.append(said)
         text = agent.agent_file()
         if text is not None:
             (Path(folder) / "agent.xml").write_text(text)

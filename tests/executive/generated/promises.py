@@ -150,7 +150,13 @@ def of_what_is_asked_for(oracle: Oracle, line: Line, held: list[Held]) -> Iterat
 def of_one_alone(oracle: Oracle, line: Line, asked: Asked, held: Held) -> Iterator[str]:
     """What is the only thing that was ever asked for begins as soon as it may, and lasts as long as it may."""
     owner = oracle.owner(line.name)
-    if any(line.used()) or oracle.agent.steps or owner.max_steps is not None or owner.name in oracle.relaxed:
+    if (
+        any(line.used())
+        or line.latest is not None
+        or oracle.agent.steps
+        or owner.max_steps is not None
+        or owner.name in oracle.relaxed
+    ):
         return
     soonest = max(asked.start[0], asked.tick + 1, line.rest if line.kind == "command" else 0)
     if held.start != soonest:

@@ -67,6 +67,7 @@ class Line:
     copied: "Line | None" = None  # what a mirror shows
     drawn: int = 0  # a command lasts up to so much longer, by chance
     period: int = 0  # drawn anew every so many ticks
+    latest: int | None = None  # it begins only while no more than this is drawn
     uses: int = 0  # of the store of its planner, from its start on
     returns: bool = False  # at its end it gives back what it used
     step: float = 1  # of a counter
@@ -120,6 +121,7 @@ class Line:
             if self.drawn:
                 yield f"int {self.parameter} = [0 {self.drawn}];"
                 lasting = f"int late; late == sampledParameter({self.parameter}); duration == n + {self.extra} + late;"
+                most += f" late <= {self.latest};" * (self.latest is not None)
             yield f"{name}::Do {{ {self.slackened(lasting)}{most} }}"
             if self.rest:
                 yield f"{name}::Rest {{ duration >= {self.rest}; }}"
