@@ -46,6 +46,7 @@ NO_REACTOR = Code("NDDL729", Severity.ERROR, "name", "there is no reactor `{name
 NO_THREATS = Code(
     "NDDL733", Severity.WARNING, "rule", "nothing orders the uses of `{resource}` in the plans of `{reactor}`"
 )
+NO_CLASS = Code("NDDL736", Severity.ERROR, "name", "{where} has no class `{name}`")
 NO_REQUESTS = Code(
     "NDDL734", Severity.WARNING, "rule", "`{timeline}` takes no requests: its owner `{owner}` has a lookahead of 0"
 )

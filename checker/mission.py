@@ -18,7 +18,7 @@ from checker.figures import Figures, read_figures
 from checker.goal_fit import goals_out_of_time
 from checker.losses import Limit
 from checker.mission_table import MissionText, Table, TomlTable, is_finite_number
-from checker.named_files import look_at
+from checker.named_files import look_at, look_at_class
 from checker.parameter_tables import read_parameters
 from checker.property_tables import read_properties
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
@@ -231,8 +231,9 @@ def _read_reactors(
             else (("model", reactor.model), ("solver", reactor.solver))
         )
         for key, file in files:
-            if file:
-                look_at(table.text, (*table.path, key), root, file)
+            is_there = not file or look_at(table.text, (*table.path, key), root, file)
+            if isinstance(reactor, CodeConfiguration) and reactor.class_name and is_there:
+                look_at_class(table.text, (*table.path, key), root, file, reactor.class_name)
         span = table.text.value_span((*table.path, "name"))
         if reactor.name in names:
             _complain_of_twin(table, span, "the reactor", reactor.name, names[reactor.name])

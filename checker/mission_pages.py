@@ -7,6 +7,7 @@ from checker.codes import (
     ILL_VALUE,
     MISSING_KEY,
     NO_ARGUMENT,
+    NO_CLASS,
     NO_DEFAULT,
     NO_EFFECT,
     NO_FILE,
@@ -271,6 +272,14 @@ MISSION_PAGES = (
         "A single number is exactly that level. A least level is the lower end of a range that has no upper one.",
         '[[property]]\nname = "charged"\nkind = "level"\nresource = "battery"\nlevel = 22\n',
         '[[property]]\nname = "charged"\nkind = "level"\nresource = "battery"\nlevel = [22, inf]\n',
+        "toml",
+    ),
+    RulePage(
+        NO_CLASS,
+        "A reactor names a class that its Python file does not have.",
+        "The mission cannot be flown. The file is read, not run: a name that it is given in any way counts.",
+        '[[reactor]]\nname = "detector"\ncode = "detector.py:Detectr"\n',
+        '[[reactor]]\nname = "detector"\ncode = "detector.py:Detector"\n',
         "toml",
     ),
     RulePage(

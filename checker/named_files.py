@@ -1,10 +1,15 @@
 """Files that a mission file names: one that is not there, or is none, is told where it is named."""
 
+import ast
 from pathlib import Path
 
-from checker.codes import NO_FILE, NO_TEXT_FILE
+from checker.codes import NO_CLASS, NO_FILE, NO_TEXT_FILE
 from checker.mission_table import MissionText
 from nddl_lang.text.nearest import nearest
+from nddl_lang.text.read import read_text
+from runtime.user.reactor_library import OWN
+
+_FREE = {"*", "exec()", "globals()", "setattr()", "__getattr__()"}  # by these a file may have any name
 
 
 def look_at(text: MissionText, key: tuple[str | int, ...], root: Path, file: str) -> bool:
@@ -28,3 +33,36 @@ def _suggest_file(root: Path, file: str) -> str | None:
         return "paths are relative to the mission file"
     close = nearest(Path(file).name, sorted(path.name for path in folder.iterdir()))
     return f"did you mean `{(Path(file).parent / close).as_posix()}`?" if close else None
+
+
+def look_at_class(text: MissionText, key: tuple[str | int, ...], root: Path, file: str, class_name: str) -> None:
+    """Complain of a class that a file with Python does not name; nothing is run, so whatever names it will do."""
+    named = ([*OWN], set()) if not file else _names_in(root / file)
+    if named is None or class_name in named[0] or class_name in named[1]:
+        return
+    classes = named[0]
+    close = nearest(class_name, classes)
+    there = f"it has {', '.join(f'`{each}`' for each in classes)}" if classes else "it has no class at all"
+    help_text = f"did you mean `{close}`?" if close else there
+    where = f"`{file}`" if file else "nddlc"
+    text.diagnostics.append(NO_CLASS.at(text.value_span(key), where=where, name=class_name, help=help_text))
+
+
+def _names_in(path: Path) -> tuple[list[str], set[str]] | None:
+    """The classes of a file, and the other names that it gives; None where its text does not tell."""
+    try:
+        tree = ast.parse(read_text(path))
+    except (OSError, ValueError, SyntaxError, RecursionError, MemoryError):
+        return None  # told when it is run
+    classes: list[str] = []
+    others: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ClassDef):
+            classes.append(node.name)
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            others |= {one.asname or one.name for one in node.names}
+        elif isinstance(node, ast.Name):
+            others.add(node.id if isinstance(node.ctx, ast.Store) else f"{node.id}()")
+        elif isinstance(node, ast.FunctionDef):
+            others.add(f"{node.name}()")
+    return None if others & _FREE else (list(dict.fromkeys(classes)), others)

@@ -31,8 +31,7 @@ def mission_sites(mission: Mission) -> dict[tuple[str, int], list[EditSite]]:
             ahead = 1 if reactor.lookahead == 0 else final
             values = {"lookahead": ahead if reactor.lookahead not in (1, final) else None}
             values["latency"] = 1 if reactor.latency > 1 else None
-            at = next(k for k in _numbers(text, "reactor") if _is_named(text, ("reactor", k, "name"), reactor.name))
-            found["reactor", number] = list(_sites(text, ("reactor", at), values))
+            found["reactor", number] = list(_sites(text, text.reactor_path(number), values))
         for number in range(len(mission.agent.goals)):
             found["goal", number] = list(_times(mission, number))
             found["asked", number] = list(_asked(mission, number))
@@ -125,11 +124,3 @@ def _site(text: MissionText, path: tuple[str | int, ...], kind: EditKind, values
     edits = tuple(SmallEdit(kind, file, span.begin, span.finish, span.text, one, span.line) for one in values)
     last = text.source.locate(span.finish - 1)[0]
     return EditSite(file, line, column, last, "", (line, last), entry.text, edits, begin=entry.begin)
-
-
-def _numbers(text: MissionText, table: str) -> list[int]:
-    return [path[1] for path in text.places if len(path) == 2 and path[0] == table and isinstance(path[1], int)]
-
-
-def _is_named(text: MissionText, path: tuple[str | int, ...], name: str) -> bool:
-    return path in text.places and text.value_span(path).text.strip("\"'") == name

@@ -5,7 +5,7 @@ import traceback
 from collections.abc import Sequence
 from pathlib import Path
 
-HELP = "this is in a constraint of the project, see docs/constraints.md"
+HELP = "this is in code of the project, see docs/constraints.md, and docs/agent.md on reactors"
 
 
 class UserCodeError(Exception):
