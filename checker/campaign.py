@@ -25,7 +25,7 @@ from checker.counterfactual.effort import Bounds
 from checker.counterfactual.ranking import Causes
 from checker.counterfactual.search import CauseSearch, Suspended
 from checker.drawn import Drawn, drawn_paths
-from checker.faults import Interruptible
+from checker.faults import Interruptible, Sought
 from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
@@ -157,6 +157,7 @@ class Campaign:
         seconds: float = math.inf,
         conditions: Conditions | None = None,
         causes: Mapping[int, Causes] | None = None,
+        sought: Sequence[Sought] | None = None,
         cases: tuple[FlownCase, ...] = (),
         progress: Callable[[int], None] | None = None,
         let: Interruptible = uninterrupted,
@@ -167,7 +168,8 @@ class Campaign:
 
         Lines that may be the cause of a fault are tried within `bounds`, for all faults together no longer than
         `seconds`. With a `focus` all that is done only for the fault that mission `focus` belongs to. `conditions`
-        and `causes` are known already, by example. `let` carries out each search, and ends it where a signal comes.
+        and `causes` are known already, by example, or all that was `sought` before. `let` carries out each search, and
+        ends it where a signal comes.
         """
         run, agent = self.run, self.models.agent
         is_flying = may_fly and ending is not Ending.SIGNAL
@@ -190,6 +192,7 @@ class Campaign:
                 focus=focus,
                 conditions=conditions,
                 causes=causes,
+                sought=sought,
                 text=self._text(),
                 cases=cases,
                 sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),

@@ -1,12 +1,14 @@
 """Buckets of failures in, faults out: those that the same change mends are one fault, with the causes tried for it."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Protocol, TypeVar
 
 from checker.batch.interruption import uninterrupted
 from checker.batch.result import MissionResult
 from checker.buckets import Bucket, joined
+from checker.conditions.condition import Condition
 from checker.counterfactual.examples import examples_of
 from checker.counterfactual.ranking import CANCELLED, NO_CAUSES, Causes, RankedLine
 from checker.counterfactual.trials import Missions
@@ -32,6 +34,21 @@ class Interruptible(Protocol):
 
     def __call__(self, search: Callable[[], _Found], /) -> _Found | None:
         """What the search finds."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Sought:
+    """The buckets of a fault, by their examples, and what was found of it when it was sought before."""
+
+    parts: tuple[int, ...]
+    causes: Causes
+    condition: Condition | None
+
+
+def found_before(buckets: Sequence[Bucket], known: Sequence[Sought]) -> list[tuple[Bucket, Causes]]:
+    """The faults behind buckets, as they were found."""
+    by_example = {bucket.example: bucket for bucket in buckets}
+    return [(joined([by_example[part] for part in one.parts]), one.causes) for one in known]
 
 
 def faults_of(

@@ -15,7 +15,7 @@ from checker.conditions.flights import Refly
 from checker.conditions.record import Conditions
 from checker.counterfactual.ranking import CANCELLED, NO_CAUSES, Causes
 from checker.counterfactual.trials import TrialsEnd
-from checker.faults import MOST_SOUGHT, Interruptible, Seeker, faults_of, missions_of
+from checker.faults import MOST_SOUGHT, Interruptible, Seeker, Sought, faults_of, found_before, missions_of
 from checker.mission import Mission
 from checker.oracle import Verdict
 from checker.proofs.conflict import Confirmation, confirm
@@ -145,6 +145,7 @@ def assess(
     seeker: Seeker | None = None,
     conditions: Conditions | None = None,
     causes: Mapping[int, Causes] | None = None,
+    sought: Sequence[Sought] | None = None,
     text: ModelText | None = None,
     cases: tuple[FlownCase, ...] = (),
     let: Interruptible = uninterrupted,
@@ -152,8 +153,9 @@ def assess(
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
     With a `focus` it does so only for the fault that mission `focus` belongs to. So does `seeker`, which finds causes;
-    without a focus, buckets of one cause become one fault. `conditions` and `causes` are known already; `text` is what
-    z3 reads the meaning of lines from. `let` carries out each search, and ends it where a signal comes.
+    without a focus, buckets of one cause become one fault. `conditions` and `causes` are known already, or all
+    that was `sought` before; `text` is what z3 reads the meaning of lines from. `let` carries out each search, and ends
+    it where a signal comes.
     """
     by_number = sorted(results, key=lambda result: result.number)
     ordered = tuple(result for result in by_number if result.number > 0)
@@ -172,8 +174,12 @@ def assess(
         rate = replace(rate, exceeds=True, is_certain=True)
     faults: list[Fault] = []
     buckets = _alike(group_failures(ordered), conditions or {})
-    sought = _with_causes(buckets, ordered, seeker, focus, causes or {}, let)
-    for position, (bucket, found) in enumerate(sorted(sought, key=lambda one: -len(one[0].missions))):
+    if sought is None:
+        pairs = _with_causes(buckets, ordered, seeker, focus, causes or {}, let)
+    else:
+        pairs = found_before(buckets, sought)
+        conditions = {one.parts[0]: one.condition for one in sought}
+    for position, (bucket, found) in enumerate(sorted(pairs, key=lambda one: -len(one[0].missions))):
         is_wanted = position < MOST_SOUGHT if focus is None else focus in bucket.missions
         members = set(bucket.missions)
         interval, _ = rate_interval(

@@ -31,6 +31,7 @@ from checker.report.junit import junit_report
 from checker.report.markdown import markdown_report
 from checker.report.sarif import sarif_report
 from checker.report.text import text_report
+from checker.sought import seal_of
 from checker.stopping import parse_rule
 from checker.story import Story
 from nddl_lang.analysis import analyse_file
@@ -42,7 +43,7 @@ from nddl_lang.text.values import json_text
 from nddlc.batch_seed import BatchSeed
 from nddlc.fitting import colours, say
 from nddlc.inputs import STORE, Unusable, chosen_dialect, configured, mission_here, readable, write_text
-from nddlc.keeping import keep_findings, keep_pages
+from nddlc.keeping import keep_findings, keep_pages, sought_before
 from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.mission_trust import models_of
@@ -148,6 +149,9 @@ def command(
             flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show, promoted=promoted)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
+    judged = [campaign.judged(one) for one in flown.results]
+    seal = seal_of(judged, flights, campaign.mission.check.confidence)
+    sought = None if no_store or not flights else sought_before(flown, campaign.run.id, seal, store_path)
     with Interruption() as interruption:
         with SeekingDisplay(_SECONDS) as seeking:
             findings = campaign.assess(
@@ -158,16 +162,17 @@ def command(
                 sampling=flown.sampling,
                 bounds=Bounds(flights, _SECONDS_A_FAULT) if flights else None,
                 seconds=_SECONDS,
+                sought=sought,
                 cases=flown.cases,
                 progress=seeking,
                 let=interruption,
             )
         findings = replace(findings, is_stored=not no_store)
-        if not no_store:
-            keep_findings(findings, store_path)
+        if not no_store and sought is None:
+            keep_findings(findings, seal, store_path)
         stories = campaign.stories(findings)
         code = _report(campaign, findings, stories, style, output, coverage=coverage)
-        if not no_store and flights:
+        if not no_store and flights and sought is None:
             sys.stdout.flush()  # what follows may take a while
             keep_pages(campaign, flown, findings, stories, store_path, interruption)
     ended_by = flown.ended_by or interruption.first

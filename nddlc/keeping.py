@@ -13,16 +13,28 @@ from checker.batch.store import open_store
 from checker.campaign import Campaign, Flown
 from checker.conditions.record import write_condition
 from checker.excerpts import Excerpts
-from checker.faults import Interruptible
+from checker.faults import Interruptible, Sought
 from checker.findings import Ending, Findings
 from checker.names import as_named
 from checker.pages import explanations
+from checker.sought import read_sought, write_sought
 from checker.sources import sources_of
 from checker.story import Story
 
 
-def keep_findings(findings: Findings, store_path: Path) -> None:
-    """Have the store remember conditions and causes."""
+def sought_before(flown: Flown, run_id: str, seal: str, store_path: Path) -> tuple[Sought, ...] | None:
+    """All that was found of the faults of a run that is flown again as it was; None where they must be sought."""
+    if flown.ending is Ending.SIGNAL:
+        return None
+    with suppress(StoreError), open_store(store_path) as store:
+        text = store.sought(run_id, seal)
+        return None if text is None else read_sought(text)
+    return None
+
+
+def keep_findings(findings: Findings, seal: str, store_path: Path) -> None:
+    """Have the store remember conditions and causes, and all together for who checks the same again."""
+    whole = write_sought(findings)
     faults = [fault for fault in findings.faults if not fault.is_cut]
     known = {fault.bucket.example: write_condition(fault.condition) for fault in faults}
     known |= {part: write_condition(one.bucket.example) for one in faults for part in one.bucket.parts[1:]}
@@ -30,6 +42,8 @@ def keep_findings(findings: Findings, store_path: Path) -> None:
     with suppress(StoreError), open_store(store_path) as store:
         store.keep_conditions(findings.run_id, known)
         store.keep_causes(findings.run_id, causes)
+        if whole is not None:
+            store.keep_sought(findings.run_id, seal, whole)
 
 
 def keep_pages(

@@ -48,6 +48,12 @@ CREATE TABLE IF NOT EXISTS causes (
     text TEXT NOT NULL,
     PRIMARY KEY (run, example)
 ) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS sought (
+    run TEXT NOT NULL,
+    seal TEXT NOT NULL,
+    text TEXT NOT NULL,
+    PRIMARY KEY (run)
+) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS explanations (
     run TEXT NOT NULL,
     mission INTEGER NOT NULL,

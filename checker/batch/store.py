@@ -54,9 +54,11 @@ class RunStore:
         found = self.results(run.id) if keep else ()
         kept = {result.number: result for result in found if result.verdict is not Verdict.ERROR}
         with self._guarded(), self._connection:
-            self._connection.execute("DELETE FROM explanations WHERE run = ?", (run.id,))  # of fewer missions
+            if len(kept) < run.missions:  # pages would tell of fewer missions
+                self._connection.execute("DELETE FROM explanations WHERE run = ?", (run.id,))
             if not keep:
                 self._connection.execute("DELETE FROM missions WHERE run = ?", (run.id,))
+                self._connection.execute("DELETE FROM sought WHERE run = ?", (run.id,))
             self._connection.execute("DELETE FROM runs WHERE id = ?", (run.id,))
             self._connection.execute(
                 "INSERT INTO runs (id, mission_file, seed, missions, sampler) VALUES (?, ?, ?, ?, ?)",
@@ -147,6 +149,16 @@ class RunStore:
     def causes(self, run_id: str) -> dict[int, str]:
         """What `keep_causes` kept."""
         return dict(self._rows("SELECT example, text FROM causes WHERE run = ?", run_id))
+
+    def keep_sought(self, run_id: str, seal: str, text: str) -> None:
+        """Remember all that was found of the faults of a run, and what it depends on."""
+        with self._guarded(), self._connection:
+            self._connection.execute("INSERT OR REPLACE INTO sought VALUES (?, ?, ?)", (run_id, seal, text))
+
+    def sought(self, run_id: str, seal: str) -> str | None:
+        """What `keep_sought` kept, if it depends on the same."""
+        rows = self._rows("SELECT seal, text FROM sought WHERE run = ?", run_id)
+        return next((text for kept, text in rows if kept == seal), None)
 
     def keep_explanations(self, run_id: str, explanations: Sequence[Explanation]) -> None:
         """Remember what there is to tell of failures."""

@@ -4,6 +4,7 @@ import json
 import re
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -11,6 +12,7 @@ from checker.batch.result import read_record, write_record
 from checker.batch.store import open_store
 from checker.batch.worker import Load
 from checker.counterfactual.ranking import Causes
+from checker.faults import faults_of
 from nddlc.inputs import STORE
 from nddlc.main import run
 from tests.checker.fake_agent import load_broken, load_split, load_troubled
@@ -194,3 +196,43 @@ def test_causes_that_the_check_has_found_are_not_sought_again(agent: None, capsy
     assert "(12345 lines tried in 3 flights of one that fails alike" in capsys.readouterr().out
     assert run(["explain", f"{run_id}#{example}", "--flights", "4"]) == 0
     assert "12345" not in capsys.readouterr().out
+
+
+def test_a_run_that_is_stored_is_checked_again_without_seeking(agent: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And says the same, byte by byte; where it is to be sought otherwise, or among more missions, it is sought."""
+    sought: list[object] = []
+
+    def counted(*arguments: Any) -> Any:
+        sought.append(arguments)
+        return faults_of(*arguments)
+
+    monkeypatch.setattr("checker.findings.faults_of", counted)
+    check = ["check", str(GPS / "mission.toml"), "--flights", "3", "--missions", "40"]
+    pages = []
+    for more, times in (
+        ((), 1),
+        ((), 1),
+        (("--format", "json"), 1),
+        (("--flights", "4"), 2),
+        (("--flights", "4"), 2),
+        (("--missions", "44"), 3),
+        (("--fresh",), 4),
+        (("--no-store",), 5),
+    ):
+        assert run([*check, *more]) == 1
+        assert len(sought) == times, more
+        pages.append(
+            [(Path("nddlc-report") / name).read_bytes() for name in ("report.json", "report.html", "junit.xml")]
+        )
+    assert pages[0] == pages[1] == pages[2]
+    assert pages[3] == pages[4] != pages[5]
+
+
+def test_what_the_clock_cut_off_is_sought_again(agent: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    check = ["check", str(GPS / "mission.toml"), "--flights", "3", "--missions", "40"]
+    with monkeypatch.context() as patch:
+        patch.setattr("nddlc.check._SECONDS_A_FAULT", 0.0)
+        run(check)
+    cut = Path("nddlc-report/report.json").read_bytes()
+    run(check)
+    assert Path("nddlc-report/report.json").read_bytes() != cut
