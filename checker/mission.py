@@ -233,7 +233,7 @@ def _read_reactors(
         for key, file in files:
             is_there = not file or look_at(table.text, (*table.path, key), root, file)
             if isinstance(reactor, CodeConfiguration) and reactor.class_name and is_there:
-                look_at_class(table.text, (*table.path, key), root, file, reactor.class_name)
+                look_at_class(table.text, (*table.path, key), root, reactor.file, reactor.class_name)
         span = table.text.value_span((*table.path, "name"))
         if reactor.name in names:
             _complain_of_twin(table, span, "the reactor", reactor.name, names[reactor.name])

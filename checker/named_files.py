@@ -51,7 +51,7 @@ def look_at_class(text: MissionText, key: tuple[str | int, ...], root: Path, fil
 def _names_in(path: Path) -> tuple[list[str], set[str]] | None:
     """The classes of a file, and the other names that it gives; None where its text does not tell."""
     try:
-        tree = ast.parse(read_text(path))
+        tree = ast.parse(read_text(path) or "")
     except (OSError, ValueError, SyntaxError, RecursionError, MemoryError):
         return None  # told when it is run
     classes: list[str] = []

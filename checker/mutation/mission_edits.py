@@ -56,7 +56,7 @@ def agent_with(mission: Mission, agent: AgentConfiguration, edit: SmallEdit) -> 
     return replace(agent, reactors=changed.agent.reactors, goals=goals, properties=changed.agent.properties)
 
 
-def _sites(text: MissionText, table: tuple[str, int], values: Mapping[str, object]) -> Iterator[EditSite]:
+def _sites(text: MissionText, table: tuple[str | int, ...], values: Mapping[str, object]) -> Iterator[EditSite]:
     for key, value in values.items():
         path = (*table, key)
         if value is not None and path in text.places:
