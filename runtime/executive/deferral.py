@@ -86,6 +86,8 @@ class Deferral:
         for one in gone:
             self.past.put_back(one)
         self.waiting.clear()
+        recorder = self.bench.recorder  # what a repair takes away now has been there
+        recorder.synchronised = max(recorder.synchronised, last)
         return last
 
     def close(self, missed: int) -> int:

@@ -4,8 +4,10 @@ from pathlib import Path
 
 import pytest
 
+from checker.judge.judge import judge_mission
 from runtime.executive.configuration import GoalConfiguration
-from runtime.executive.mission import run_mission
+from runtime.executive.mission import record_mission, run_mission
+from runtime.executive.outcome import RepairStage
 from tests.executive.flying import fly, open_goals, planner
 from tests.executive.generated.campaign import faults_of_seed
 from tests.executive.generated.flights import lines_of, loaded
@@ -45,6 +47,13 @@ def test_a_random_agent_with_draws_and_stores_flies_as_it_must(seed: int) -> Non
 @pytest.mark.parametrize("seed", [0, 1, 5, 44, 49, 128])
 def test_a_random_agent_of_many_reactors_flies_as_it_must(seed: int) -> None:
     assert faults_of_seed(seed, wide=True, rich=True, deep=True)[1] == []
+
+
+def test_what_a_sleeper_takes_in_before_it_forgets_the_past_is_on_record(tmp_path: Path) -> None:
+    agent, programs = loaded(random_agent(9400102, wide=True, rich=True, deep=True).write(tmp_path))
+    outcome, record = record_mission(agent, programs, 1, until=75)
+    assert any(event.stage is RepairStage.FORGET_PAST for event in outcome.events)
+    assert judge_mission(agent, programs.programs, outcome, record, programs.constraints).holds
 
 
 def test_the_oracle_sees_what_is_told_twice(tmp_path: Path) -> None:
