@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import networkx as nx
 
-from checker.culprit import culprit_of
+from checker.culprit import culprit_of, own_elements
 from compiler.program import TOKEN_TIMES
 from runtime.executive.events import causes_of, numbered
 from runtime.executive.outcome import (
@@ -166,10 +166,11 @@ def _predicates_in(event: Event) -> set[str]:
 def in_common(deadlock: Deadlock) -> Conflict | None:
     """The conflict that speaks for what was tried in vain: the one whose lines rule out the most, of equals the first.
 
-    A line is the same for every token that it is posted for.
+    A line is the same for every token that it is posted for. Lines by which another reactor asked do not count: those
+    stand behind one conflict alone.
     """
     conflicts = list(deadlock.conflicts())
-    places = [{element.place for element in one.elements if element.place is not None} for one in conflicts]
+    places = [{element.place for element in own_elements(one) if element.place is not None} for one in conflicts]
     counts = Counter(place for each in places for place in each)
     weights = [sum(counts[place] for place in each) / max(len(each), 1) for each in places]
     return conflicts[weights.index(max(weights))] if conflicts else None

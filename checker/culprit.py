@@ -38,27 +38,35 @@ class Culprit:
 
 
 def culprit_of(conflict: Conflict | None) -> Culprit:
-    """The written limit that stands farthest from what the world did."""
+    """The written limit that stands farthest from what the world did, sooner one of the reactor that broke."""
     if conflict is None:
         return Culprit()
     elements = conflict.elements
     neighbours = _neighbours(conflict)
     roots = _roots(conflict, (ElementKind.SAMPLE,)) or _roots(conflict, _WORLD)
     far = _distances(neighbours, roots)
+    own = set(own_elements(conflict))
     candidates = [
-        (_rank(element), -far.get(number, len(elements)), -number)
+        (_rank(element), element not in own, -far.get(number, len(elements)), -number)
         for number, element in enumerate(elements)
         if element.place is not None and element.kind not in _WORLD
     ]
     if not candidates:
         return Culprit()
-    chosen = -min(candidates)[2]
+    chosen = -min(candidates)[-1]
     limits = [
         element.place
         for number, element in enumerate(elements)
         if number in neighbours[chosen] and element.kind in _VALUES and element.place != elements[chosen].place
     ]
     return Culprit(chosen, elements[chosen], tuple(place for place in dict.fromkeys(limits) if place is not None))
+
+
+def own_elements(conflict: Conflict) -> list[ConflictElement]:
+    """The elements of the reactor that a conflict arose in, without those of reactors that it was told on through."""
+    reactors = [next((one.reactor for one in element.variables), "") for element in conflict.elements]
+    own = next((one for one in reversed(reactors) if one), "")
+    return [element for element, one in zip(conflict.elements, reactors, strict=True) if one in ("", own)]
 
 
 def in_telling_order(conflict: Conflict, last: int) -> list[int]:

@@ -1,7 +1,6 @@
 """Run one mission: the clock, and each tick every reactor in turn; a configuration goes in, an outcome comes out."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from runtime.executive.clocks import FastClock
 from runtime.executive.configuration import AgentConfiguration
@@ -9,7 +8,6 @@ from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import (
     Abort,
     Conflict,
-    ElementKind,
     EventKind,
     OpenGoal,
     Outcome,
@@ -20,8 +18,8 @@ from runtime.executive.outcome import (
 from runtime.executive.ownership import in_order, tell_owners
 from runtime.executive.poster import GoalPoster
 from runtime.executive.reactor import Failure, Refusal, TeleoReactor, Watched
+from runtime.executive.told_on import asked_in, told_on
 from runtime.executive.trace import Trace, as_it_is
-from runtime.plan.readout.statements import Term
 
 _START, _SYNCHRONISE, _OBSERVE = Phase.START, Phase.SYNCHRONISE, Phase.OBSERVE
 _DELIBERATE, _DISPATCH = Phase.DELIBERATE, Phase.DISPATCH
@@ -302,6 +300,7 @@ class Agent:
     def _abort(self, reactor: TeleoReactor, failure: Failure) -> Abort:
         """Record that the agent ends early, with its reason."""
         conflict = None if failure.conflict is None else self.trace.tell_on(failure.conflict, failure.watched)
+        deadlock = asked_in(failure.deadlock, reactor.hangs_on, self.trace)
         drawn = conflict.parameters if conflict is not None else ()
         event = self.trace.record(
             EventKind.ABORT,
@@ -311,7 +310,7 @@ class Agent:
             code=failure.code,
             reason=failure.reason,
             conflict=conflict,
-            deadlock=failure.deadlock,
+            deadlock=deadlock,
         )
         return Abort(
             failure.code,
@@ -323,27 +322,12 @@ class Agent:
             failure.relaxes,
             event,
             failure.repairs,
-            failure.deadlock,
+            deadlock,
         )
 
     def _told_on(self, conflict: Conflict, watches: tuple[Watched, ...]) -> Conflict:
-        """A conflict, told on through the reactors that published what it hangs on."""
-        elements = [[element] for element in conflict.elements]
-        for watched in watches:
-            owner = next((r for r in self.reactors if r.name == watched.source.owner), None)
-            told = owner.why_it_lasts(watched.source.token, watched.source.token_key) if owner else None
-            if told is None:
-                continue
-            name, reasons = told
-            observed = replace(
-                conflict.elements[watched.number],
-                kind=ElementKind.SHARED_END,
-                says=None,
-                terms=(Term("eq", (watched.variable, name)),),
-                observed=(watched.source.predicate, watched.source.timeline),
-            )
-            elements[watched.number] = [*reasons.elements, observed]
-        return Conflict(tuple(element for together in elements for element in together))
+        """A conflict, told on through the reactors that published or asked for what it hangs on."""
+        return told_on(conflict, watches, self.reactors)
 
     def _kill(self, reactor: TeleoReactor, failure: Failure) -> None:
         """Take a failed reactor out and tell the users of its timelines (T-REX 1.6, second generation)."""

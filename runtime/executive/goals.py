@@ -8,6 +8,7 @@ from runtime.executive.outcome import Conflict, Deadlock, EventKind, OpenGoal, R
 from runtime.executive.reactor import Refusal, Watched
 from runtime.executive.repair import hold_present, stand
 from runtime.executive.timelines import NOTHING, Goal, TimelineState
+from runtime.executive.told_on import asked_in, watched_in
 from runtime.executive.trace import Trace
 from runtime.executive.view import SPAN_REQUEST
 from runtime.executive.workbench import Workbench
@@ -153,6 +154,7 @@ class Goals:
             deadlock, why = deadlock or repair.deadlock, Reason(kind, repair=repair.reason)
             if conflict is not None:
                 causes += self.trace.draw_events(conflict.parameters)
+        deadlock = asked_in(deadlock, self._watched, self.trace)
         event = self.trace.record(
             EventKind.REJECT,
             self.name,
@@ -169,6 +171,9 @@ class Goals:
         if request.is_mandatory:
             goal = OpenGoal(request.timeline, request.predicate, request.arguments, why, event, conflict, deadlock)
             self.given_up[request.number] = goal
+
+    def _watched(self, conflict: Conflict) -> tuple[Watched, ...]:
+        return watched_in(conflict, self.bench, self.timelines, self.posted)
 
     def note_repair(self, repair: Repair, watched: tuple[Watched, ...] = ()) -> None:
         """Keep why the plan is repaired: where a goal is at stake, told on through the other reactors."""

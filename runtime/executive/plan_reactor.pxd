@@ -50,10 +50,11 @@ cdef class PlanReactor(TeleoReactor):
     @cython.locals(mark="long long")
     cpdef object _synchronise(self, long long tick)
 
-    @cython.locals(line=TimelineState)
-    cpdef tuple _watched(self, conflict)
+    cpdef tuple hangs_on(self, conflict)
 
     cpdef object why_it_lasts(self, long long token, long long key)
+
+    cpdef object why_asked(self, long long number, name, long long side)
 
     @cython.locals(line=TimelineState, published=list)
     cpdef list observations(self, long long tick)

@@ -8,7 +8,7 @@ from runtime.executive.draws import Draws
 from runtime.executive.goals import Goals, Repair
 from runtime.executive.holding import is_blocked
 from runtime.executive.messages import Observation, Request
-from runtime.executive.outcome import Conflict, ElementKind, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
+from runtime.executive.outcome import Conflict, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
 from runtime.executive.past import Past
 from runtime.executive.planning import EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_MOVED, EPISODE_TOO_DEEP, Planner
 from runtime.executive.reactor import Failure, Refusal, SyncFailure, TeleoReactor, Watched, conflicts_beside
@@ -18,6 +18,7 @@ from runtime.executive.repair import relax
 from runtime.executive.story import conflict_of, latest
 from runtime.executive.synchronise import synchronise
 from runtime.executive.timelines import NOTHING, TimelineState
+from runtime.executive.told_on import watched_in, why_sent
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.readout.names import VariableName
@@ -179,7 +180,7 @@ class PlanReactor(TeleoReactor):
             if attempt == 0:
                 causes = tuple([line.news.event for line in self.timelines if line.news is not None])
                 events = [line.event for line in self.timelines if line.event != NOTHING and not line.is_internal]
-                watched = self._watched(failure.conflict)
+                watched = self.hangs_on(failure.conflict)
                 self.goals.note_failed_starts(self.dispatch.answered())
         self.bench.recorder.is_lost = True
         first = failures[0]
@@ -208,30 +209,19 @@ class PlanReactor(TeleoReactor):
         self.bench.commit()
         return failure
 
-    def _watched(self, conflict: Conflict | None) -> tuple[Watched, ...]:
-        """The elements of a conflict that say how long what another reactor published has lasted."""
-        if conflict is None:
-            return ()
-        ends = {
-            self.bench.name_of(line.current): line.source
-            for line in self.timelines
-            if not line.is_internal and line.current != NOTHING and line.source is not None
-        }
-        found = []
-        for number, element in enumerate(conflict.elements):
-            source = ends.get(element.token) if element.token is not None else None
-            if element.kind is not ElementKind.OBSERVATION or source is None:
-                continue
-            variable = element.terms[0].arguments[0]
-            if isinstance(variable, VariableName) and variable.name == "end" and variable.token == element.token:
-                found.append(Watched(number, variable, source))
-        return tuple(found)
+    def hangs_on(self, conflict: Conflict | None) -> tuple[Watched, ...]:
+        """The elements of a conflict that other reactors have to answer for."""
+        return () if conflict is None else watched_in(conflict, self.bench, self.timelines, self.goals.posted)
 
     def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
         """The end of one of its tokens, and what sets it: the token lasts as long as the model allows (T-REX 1.5)."""
         if not self.bench.is_alive(token, key):
             return None
         return latest(self.bench, self.bench.end(token))
+
+    def why_asked(self, number: int, name: str, side: int) -> tuple[VariableName, float, Conflict] | None:
+        """A time of a token that it has asked for by a request: its name, its bound now, and what sets that."""
+        return why_sent(self.bench, self.dispatch, number, name, side)
 
     def observations(self, tick: int) -> list[Observation]:
         """What its own timelines have begun to hold at `tick`; also clears the news that was folded in."""

@@ -11,11 +11,14 @@ _NEVER = 2**62
 
 @dataclass(frozen=True, slots=True)
 class Watched:
-    """Element `number` of a conflict says how long `variable`, the end of an observed token, has been put off."""
+    """Element `number` of a conflict says what `variable` is by the word of another reactor.
+
+    That is how long an observed token has been put off, or when another reactor asked for one to be carried out.
+    """
 
     number: int
     variable: VariableName
-    source: Observation
+    source: Observation | Request
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,6 +158,14 @@ class TeleoReactor:
     def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
         """The name of the end of one of its tokens, and what sets that end."""
         return None
+
+    def why_asked(self, number: int, name: str, side: int) -> tuple[VariableName, float, Conflict] | None:
+        """A time of a token that it has asked for by a request: its name, its bound now, and what sets that."""
+        return None
+
+    def hangs_on(self, conflict: Conflict | None) -> tuple[Watched, ...]:
+        """The elements of a conflict of its plan that other reactors have to answer for."""
+        return ()
 
 
 def conflicts_beside(first: Conflict | None, failures: list[SyncFailure]) -> tuple[Conflict, ...]:

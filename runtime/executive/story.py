@@ -55,6 +55,13 @@ def conflict_of(bench: Workbench) -> Conflict | None:
     return Conflict(tuple(reader.element(cause) for cause in minimise(engine, engine.explain())))
 
 
+def bounded(bench: Workbench, v: int, side: int) -> tuple[VariableName, Conflict]:
+    """What sets a bound of `v`, the root first."""
+    reader = _ElementReader(bench)
+    links = bench.engine.support_chain(v, side)
+    return reader.name(v), Conflict(tuple(dict.fromkeys(reader.element(link.cause) for link in reversed(links))))
+
+
 def latest(bench: Workbench, v: int) -> tuple[VariableName, Conflict]:
     """What sets the latest value of `v`, and that nothing ends it earlier: each link of the chain is used up.
 
