@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from multiprocessing.process import BaseProcess
 
 import runtime.build_form
+from checker.batch.processor import PATIENCE, processor_seconds
 from checker.batch.result import MissionResult
 from checker.batch.signals import ENDING
 from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result, reason_of, work
@@ -57,6 +58,7 @@ class Flyer:
         self._load, self._agent, self._time_limit = load, agent, time_limit
         self._progress, self._flights = progress, 0
         self._worker: Worker | None = None
+        self._begun, self._before = 0.0, 0.0  # processor time of the worker when it came here; of those before it
 
     def __enter__(self) -> "Flyer":
         return self
@@ -70,8 +72,14 @@ class Flyer:
     def dismiss(self) -> None:
         """End the process."""
         if self._worker is not None:
+            self._before = self.processor_seconds
             self._worker.kill()
             self._worker = None
+
+    @property
+    def processor_seconds(self) -> float:
+        """What its flights have taken, the start of processes included; where that is not known, by the clock."""
+        return self._before + (self._worker.processor_seconds - self._begun if self._worker is not None else 0.0)
 
     def fly(
         self,
@@ -83,7 +91,7 @@ class Flyer:
         keeps_trace: bool = False,
         most_seconds: float = math.inf,
     ) -> MissionResult:
-        """The result of one mission; an ERROR where the process died or took too long.
+        """The result of one mission; an ERROR where the process died or took too long: `most_seconds` of the processor.
 
         `load` loads the models where they are others than those that the process was started with.
         """
@@ -94,9 +102,10 @@ class Flyer:
         if self._progress is not None:
             self._progress(self._flights)
         self._flights += 1
-        limit = min(self._time_limit, most_seconds)
+        limit = min(self._time_limit, PATIENCE * most_seconds)
         if self._worker is None:
             self._worker = SPARE.take(self._load, self._agent)
+            self._begun = self._worker.processor_seconds if self._worker is not None else 0.0
         if self._worker is None:
             self._worker = Worker(self._load, self._agent)
             reason = self._worker.await_words(_START_LIMIT)
@@ -108,9 +117,11 @@ class Flyer:
             if message != READY:
                 return self._lost(task, *self._worker.fate())
         self._worker.give([task], limit)
-        reason = self._worker.await_words(limit)
+        reason = self._worker.await_words(limit, most_seconds)
         if reason is not None:
-            return self._lost(task, reason or f"took longer than {limit:g} s", USER_CODE if reason else "")
+            return self._lost(
+                task, reason or f"took longer than {min(limit, most_seconds):g} s", USER_CODE if reason else ""
+            )
         result = self._heard()
         if isinstance(result, LastWords):
             return self._lost(task, result.reason, USER_CODE)
@@ -124,9 +135,7 @@ class Flyer:
             return None
 
     def _lost(self, task: Task, reason: str, code: str = "") -> MissionResult:
-        assert self._worker is not None
-        self._worker.kill()
-        self._worker = None
+        self.dismiss()
         return error_result(task, reason, code=code)
 
 
@@ -140,7 +149,7 @@ class Worker:
         context = multiprocessing.get_context("spawn")
         self.connection, other = context.Pipe()
         self._box = new_box()
-        self._looked = time.monotonic()
+        self._looked = self._started = time.monotonic()
         box = "" if self._box is None else self._box.path
         memory = max(half_of_the_machine() // workers, _LEAST_MEMORY)
         self.process: BaseProcess = context.Process(target=work, args=(other, load, agent, box, memory), daemon=True)
@@ -164,12 +173,21 @@ class Worker:
             return None
         return reason_of(self._box.hung(self.process.pid))
 
-    def await_words(self, seconds: float) -> str | None:
-        """Wait until it says something; why it does not: a modeler's code, or "" where nobody knows more."""
-        end = time.monotonic() + seconds
+    @property
+    def processor_seconds(self) -> float:
+        """What it has used; where the system does not tell, how long it has lived."""
+        used = processor_seconds(self.process.pid) if self.process.pid is not None else None
+        return time.monotonic() - self._started if used is None else used
+
+    def await_words(self, seconds: float, processor: float = math.inf) -> str | None:
+        """Wait until it says something; why it does not: a modeler's code, or "" where nobody knows more.
+
+        Not longer than so many seconds by the clock, and so many of the `processor`.
+        """
+        end, most = time.monotonic() + seconds, self.processor_seconds + processor
         while not self.connection.poll(min(_LOOK, max(0.0, end - time.monotonic()))):
             reason = self.hung()
-            if reason is not None or time.monotonic() >= end:
+            if reason is not None or time.monotonic() >= end or self.processor_seconds >= most:
                 return reason or ""
         return None
 

@@ -1,7 +1,13 @@
-"""How much may be tried to find causes: flights and seconds."""
+"""How much may be tried to find causes: flights, and seconds of processor time.
 
+Processor time hardly depends on what else a machine does, so causes do not either; the clock ends what is starved.
+"""
+
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+
+from checker.batch.processor import PATIENCE
 
 MOST_FLIGHTS = 40
 MOST_SECONDS = 60.0
@@ -9,8 +15,32 @@ MOST_SECONDS = 60.0
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """How much may be tried; `is_cancelled` is asked before each flight."""
+    """How much may be tried; `is_cancelled` is asked before each flight.
+
+    `seconds` are of processor time, as `spent` tells it: of this process, and of those that fly for it.
+    """
 
     flights: int = MOST_FLIGHTS
     seconds: float = MOST_SECONDS
     is_cancelled: Callable[[], bool] = field(default=lambda: False)
+    spent: Callable[[], float] = time.process_time
+
+
+class Stopwatch:
+    """Processor time and time by the clock since it was made."""
+
+    def __init__(self, spent: Callable[[], float]) -> None:
+        self._spent, self._begun, self._clock = spent, spent(), time.monotonic()
+
+    @property
+    def seconds(self) -> float:
+        """Of processor time."""
+        return self._spent() - self._begun
+
+    def is_over(self, seconds: float) -> bool:
+        """Whether so much processor time was used."""
+        return self.seconds >= seconds
+
+    def is_starved(self, seconds: float) -> bool:
+        """Whether it was not, in many times as long by the clock."""
+        return time.monotonic() - self._clock >= PATIENCE * seconds

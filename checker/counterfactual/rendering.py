@@ -73,6 +73,8 @@ def effort_text(causes: Causes, mission: str = "the same mission") -> str:
             return f"{text}, no more are made"
         case TrialsEnd.SECONDS:
             return f"{text}, then time was over"
+        case TrialsEnd.CLOCK:
+            return f"{text}, then the machine had no time for more"
         case TrialsEnd.CANCELLED:
             return f"{text}, then it was ended"
         case _:

@@ -13,7 +13,7 @@ from checker.causes import failed_by
 from checker.counterfactual.candidates import candidates_of
 from checker.counterfactual.damage import HEAVY, damage_of
 from checker.counterfactual.dependence import Dependence
-from checker.counterfactual.effort import Bounds
+from checker.counterfactual.effort import Bounds, Stopwatch
 from checker.counterfactual.loose_ends import loose_ends
 from checker.counterfactual.mission_lines import mission_lines
 from checker.counterfactual.moments import with_durations
@@ -49,22 +49,27 @@ class Suspended:
 
 
 class CauseSearch:
-    """Finds the causes of several faults, each within `bounds`, all together within so many seconds."""
+    """Finds the causes of several faults, each within `bounds`, all together in so many seconds of the processor."""
 
     def __init__(self, world: Suspended, bounds: Bounds, seconds: float = math.inf) -> None:
-        self._world, self._bounds = world, bounds
-        self._deadline = time.monotonic() + seconds
+        self._world, self._seconds = world, seconds
+        self._bounds = replace(bounds, spent=lambda: time.process_time() + world.flyer.processor_seconds)
+        self._watch = Stopwatch(self._bounds.spent)
+
+    @property
+    def _left(self) -> float:
+        """The seconds that are left; none where the machine has given no time for long."""
+        return 0.0 if self._watch.is_starved(self._seconds) else self._seconds - self._watch.seconds
 
     def causes(self, missions: Missions) -> Causes:
         """The causes of one fault."""
-        left = max(self._deadline - time.monotonic(), 0.0)
-        bounds = replace(self._bounds, seconds=min(self._bounds.seconds, left))
+        bounds = replace(self._bounds, seconds=min(self._bounds.seconds, max(self._left, 0.0)))
         found = rank(find_causes(missions, self._world, bounds), Path(self._world.agent.root))
         return replace(found, flown=missions.failed[0].number)
 
     def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
         """Whether the change of a cause makes another failed mission pass, with all goals; False where time is over."""
-        left = min(self._deadline - time.monotonic(), self._bounds.seconds)
+        left = min(self._left, self._bounds.seconds)
         if cause.change is None or cause.claim is Claim.EVADES or left <= 0.0 or self._bounds.flights == 0:
             return False
         result = _fly(self._world, cause.change, failed, left)

@@ -4,7 +4,6 @@ A change counts where the mission then passes, with the same draws, and the judg
 to the least likely and end after so many flights or seconds: what could not be tried is told, not guessed.
 """
 
-import time
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -15,7 +14,7 @@ from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.damage import HEAVY, collapsed_of, course_of, damage_of, is_farther, strayed_of
-from checker.counterfactual.effort import Bounds
+from checker.counterfactual.effort import Bounds, Stopwatch
 from checker.counterfactual.follow_ups import alternatives, follow_ups
 from checker.counterfactual.numbers import between, is_doubling
 from checker.counterfactual.orders import is_order_turned
@@ -57,7 +56,8 @@ class TrialsEnd(StrEnum):
 
     COMPLETE = "complete"
     FLIGHTS = "flights"
-    SECONDS = "seconds"
+    SECONDS = "seconds"  # of processor time
+    CLOCK = "clock"  # the machine gave it so little of that
     CANCELLED = "cancelled"
 
 
@@ -291,7 +291,7 @@ class _Trials:
         self.is_lost = False  # whether the last flight was given up
         self.ended: TrialsEnd | None = None
         self.cut: TrialsEnd | None = None  # where time was over for a part of the trials
-        self._begun = time.monotonic()
+        self._watch = Stopwatch(bounds.spent)
         self._slowest: float | None = None
 
     def may_go_on(self, reserve: int = 0, share: float = 1.0) -> bool:
@@ -301,20 +301,22 @@ class _Trials:
                 self.ended = TrialsEnd.CANCELLED
             elif self.flights + reserve >= self.bounds.flights:
                 self.ended = TrialsEnd.FLIGHTS
-            elif time.monotonic() - self._begun >= share * self.bounds.seconds:
+            elif self._watch.is_over(share * self.bounds.seconds):
                 self.ended = self.cut = TrialsEnd.SECONDS
+            elif self._watch.is_starved(share * self.bounds.seconds):
+                self.ended = self.cut = TrialsEnd.CLOCK
         return self.ended is None
 
     def resume(self) -> None:
         """Let flights that were kept for others be made, in the time that is left."""
-        if self.ended in (TrialsEnd.FLIGHTS, TrialsEnd.SECONDS):
+        if self.ended is not TrialsEnd.CANCELLED:
             self.ended = None
 
     def fly(self, edit: SmallEdit, mission: MissionResult) -> MissionResult:
         """One trial."""
         self.flights += 1
-        begun = time.monotonic()
-        most = max(_SHARE * (self.bounds.seconds - (begun - self._begun)), _LEAST_SECONDS)
+        begun = self._watch.seconds
+        most = max(_SHARE * (self.bounds.seconds - begun), _LEAST_SECONDS)
         if self._slowest is not None:
             most = min(most, max(_SLOW * self._slowest, _LEAST_SECONDS))
         try:
@@ -322,7 +324,7 @@ class _Trials:
         except InterruptedSearch:
             self.ended = TrialsEnd.CANCELLED
             return replace(mission, judgement=replace(mission.judgement, verdict=Verdict.ERROR))
-        taken = time.monotonic() - begun
+        taken = self._watch.seconds - begun
         self.is_lost = result.verdict is Verdict.ERROR and taken >= most
         if result.verdict is not Verdict.ERROR:
             self._slowest = max(self._slowest or 0.0, taken)

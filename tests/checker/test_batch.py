@@ -136,7 +136,11 @@ def test_a_mission_that_needs_too_much_memory_or_has_no_end_is_an_error_and_the_
 
 def test_single_flights_survive_the_process_that_flies_them() -> None:
     with Flyer(load_troubled, agent(), 1.0) as flyer:
+        assert flyer.processor_seconds == 0.0
         verdicts = [flyer.fly(agent(), 1, seed).verdict for seed in (0, 1, 2, 3)]
+        taken = flyer.processor_seconds
+        flyer.dismiss()
+        assert flyer.processor_seconds >= taken > 0.0  # what those took that have ended is known
     assert verdicts[:3] == [Verdict.ERROR] * 3
     assert verdicts[3] is not Verdict.ERROR
 
