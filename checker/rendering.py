@@ -16,6 +16,7 @@ from checker.proofs.conflict import Confirmation, Finding
 from checker.requested import PlannerChoice
 from checker.sampling.rendering import describe, number
 from checker.story import Step, StepKind, Story
+from checker.waiting import Waiting
 from compiler.program import DomainConstant
 from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.outcome import (
@@ -134,6 +135,8 @@ def step_text(step: Step, story: Story) -> str:
         case Deadlock() as deadlock:
             tried = ", ".join(choice_text(one.choice) for one in deadlock.tried)
             return f"{deadlock_text(deadlock)}; {f'tried in vain: {tried}' if tried else 'there is nothing to choose'}"
+        case Waiting() as waiting:
+            return waiting_text(waiting)
         case Abort() | None as abort:
             return _end_text(abort, story)
         case _:
@@ -212,6 +215,18 @@ def element_line(element: ConflictElement) -> str:
     if not is_told and element.token is not None and not element.names(element.token):
         text = f"{element.token}: {text}"
     return text + _ORIGINS.get(element.kind, "")
+
+
+def waiting_text(waiting: Waiting) -> str:
+    """What was asked for and was not over, and how far it had come."""
+    asked = f"{waiting.predicate} on `{waiting.timeline}`, asked for by {waiting.sender or 'the mission file'}"
+    held = ", ".join(
+        f"`{timeline}` holds {predicate} since tick {tick}" for timeline, predicate, tick in waiting.holding
+    )
+    if waiting.since is None:
+        return f"{asked} at tick {waiting.asked}, has not begun" + (f": {held}" if held else "")
+    used = f"; of what {waiting.owner} uses, {held}" if held else ""
+    return f"{asked} at tick {waiting.asked}, goes on since tick {waiting.since}{used}"
 
 
 def _end_text(abort: Abort | None, story: Story) -> str:

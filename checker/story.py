@@ -23,6 +23,7 @@ from checker.oracle import Judgement
 from checker.proofs.conflict import Confirmation, confirm, needed_elements
 from checker.proofs.places import ModelText
 from checker.requested import PlannerChoice, lines_that_ask, who_chose
+from checker.waiting import Waiting, waited_for
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import (
@@ -55,6 +56,7 @@ class StepKind(StrEnum):
     CAUSE = "cause"  # an element of the conflict
     FAULT = "fault"  # the culprit
     TRIED = "tried"  # what the search tried in vain
+    WAITING = "waiting"  # what an open goal waited for
     ABORT = "abort"
 
 
@@ -63,8 +65,8 @@ class Step:
     """One link of the chain: when (None: always), what, and where that is written.
 
     `subject` is a draw with how it is drawn, the rule of a line, an event, an element of the conflict, a line that asks
-    for one, what was tried, or the abort (None: the mission went to its end). `limits` are the lines that set what the
-    faulty one compares with.
+    for one, what was tried or waited for, or the abort (None: the mission went to its end). `limits` are the lines that
+    set what the faulty one compares with.
     """
 
     kind: StepKind
@@ -77,6 +79,7 @@ class Step:
         | Event
         | ConflictElement
         | Deadlock
+        | Waiting
         | Abort
         | None
     )
@@ -135,6 +138,7 @@ def tell(
         *(Step(StepKind.EVENT, event.tick, event) for event in way),
         *_with_askers(_conflict(conflict, confirmation), outcome, text),
         *_tried(outcome),
+        *(Step(StepKind.WAITING, None, one) for one in waited_for(outcome, agent)),
         Step(StepKind.ABORT, outcome.last_tick, abort),
     ]
     return Story(
