@@ -102,6 +102,9 @@ class Limit(StrEnum):
     UNDELIVERED = "max_undelivered"
 
 
+Limits = tuple[tuple[Limit, int], ...]  # the most of each loss that [check] allows
+
+
 @dataclass(frozen=True, slots=True)
 class Exceeded:
     """A limit that a mission did not keep."""

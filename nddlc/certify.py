@@ -7,10 +7,11 @@ import click
 
 from checker.excerpts import Excerpts
 from checker.flight import fly_recorded
+from checker.losses import losses_of
 from checker.mission import LARGEST_SEED, Mission
 from checker.models import ModelSet, load_models
 from checker.mutation.variant import open_over
-from checker.oracle import Verdict, judge
+from checker.oracle import Verdict, judge, judge_losses
 from checker.pinned import pinned
 from checker.proofs.box import Point
 from checker.proofs.certify import Certainty, Certificate, Certifier
@@ -51,7 +52,7 @@ def command(
     _, mission, models = prepare(mission_here(path), is_trusted=is_trusted)
     excerpts = Excerpts(Path(models.agent.root))
     chosen = mission.check.seed if seed is None else seed
-    certifier = certifier_of(models, chosen)
+    certifier = certifier_of(mission, models, chosen)
     found = certifier.certify(corners=not no_corners, rules_only=rules_only)
     told = [_bounded(name, certifier, mission, models, chosen, rules_only) for name in bounds]
     if style == "json":
@@ -73,16 +74,17 @@ def command(
 _Bound = tuple[str, SafeConstant | None, tuple[Any, ...], Certificate | None]
 
 
-def certifier_of(models: ModelSet, seed: int) -> Certifier:
+def certifier_of(mission: Mission, models: ModelSet, seed: int) -> Certifier:
     """What certifies a mission, with missions flown in this process."""
-    agent = models.agent
+    agent, limits = models.agent, mission.check.limits
     flown = pinned(models).programs_of(agent)
 
     def fly(point: Point) -> tuple[Outcome, MissionRecord, bool]:
         outcome, record = fly_recorded(agent, flown, seed, point)
-        return outcome, record, judge(outcome).verdict is Verdict.PASS
+        judgement = judge_losses(judge(outcome), losses_of(outcome), limits)
+        return outcome, record, judgement.verdict is Verdict.PASS
 
-    return Certifier(agent, flown.programs, fly)
+    return Certifier(agent, flown.programs, fly, limits=limits)
 
 
 def _bounded(
@@ -101,7 +103,7 @@ def _bounded(
         name,
         safe,
         places,
-        None if changed.has_errors else certifier_of(changed, seed).certify(rules_only=rules_only),
+        None if changed.has_errors else certifier_of(mission, changed, seed).certify(rules_only=rules_only),
     )
 
 

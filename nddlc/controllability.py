@@ -33,7 +33,7 @@ def command(path: str | None, seed: int | None, style: str, is_trusted: bool) ->
     plans are, with 1 if one is not, with 2 if it cannot be told.
     """
     _, mission, models = prepare(mission_here(path), is_trusted=is_trusted)
-    certifier = certifier_of(models, mission.check.seed if seed is None else seed)
+    certifier = certifier_of(mission, models, mission.check.seed if seed is None else seed)
     if not certifier.find_structure():
         raise Unusable(certifier.excess or "none of the missions flown passes, so there is no plan to look at")
     excerpts = Excerpts(Path(models.agent.root))

@@ -10,9 +10,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import combinations
+from pathlib import Path
 
 import z3
 
+from checker.losses import Limits, losses_of
 from checker.proofs.box import Box, Point, box_of
 from checker.proofs.claims import Claim, Number
 from checker.proofs.dating import Dated, Requirement, dated
@@ -21,7 +23,6 @@ from checker.proofs.operands import decimal, rational
 from checker.proofs.solving import fraction
 from checker.proofs.structure import Structure, structure_of
 from compiler.program import Program
-from nddl_lang.semantics.constraints import CONSTRAINTS
 from nddl_lang.text.source import Span
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import Outcome
@@ -67,23 +68,32 @@ class Certificate:
     open: int = 0
     untold: tuple[tuple[str, int], ...] = ()
     unproved: tuple[str, ...] = ()  # properties that are no part of the proof
+    limits: Limits = ()  # of [check], which the outcome may exceed
+    repaired: int = 0  # flights that pass after a plan was repaired
 
 
 class Certifier:
     """One mission, and the structures of its flights so far."""
 
     def __init__(
-        self, agent: AgentConfiguration, programs: Sequence[Program], fly: _Fly, effort: int = _EFFORT
+        self,
+        agent: AgentConfiguration,
+        programs: Sequence[Program],
+        fly: _Fly,
+        effort: int = _EFFORT,
+        limits: Limits = (),
     ) -> None:
         self.agent = agent
         self.programs = programs
         self.fly = fly
         self.effort = effort
+        self.limits = limits
         self.box: Box = box_of(agent)
         self.structures: list[Structure] = []
         self.dated: list[Dated] = []
         self.base: Point | None = None
         self.flights = 0
+        self.repaired = 0
         self.excess = ""  # why a flight that passes has given no structure
 
     # ---- the whole box ----
@@ -124,13 +134,17 @@ class Certifier:
 
     def _held(self, has_gaps: bool, rules_only: bool) -> Certificate:
         """Every condition holds; is that all that is asked?"""
+        for structure in self.structures:
+            for name, span in structure.silent.items():
+                return self._unknown(f"z3 cannot be told what `{name}` means{_at(span)}")
+            for _, span in structure.lost.items():
+                what = f"`{' '.join(span.text.split())}`" if span is not None else "a line"
+                why = "is about a token that a flight has no times of, as where a repair cut it off"
+                return self._unknown(f"{what}{_at(span)} {why}; nothing is proved of it")
         unproved = tuple(each.name for each in self.agent.properties)
         if unproved and not rules_only:
             why = "the rules hold, but the mission file's properties are not part of the proof"
             return self._unknown(f"{why} (`--rules-only` leaves them out)")
-        silent = sorted({name for structure in self.structures for name in structure.untold if name in CONSTRAINTS})
-        if silent:
-            return self._unknown(f"z3 cannot be told what `{silent[0]}` means")
         return self._answer(Certainty.CERTIFIED, why=_UNSEEN if has_gaps else "", unproved=unproved)
 
     def find_structure(self) -> bool:
@@ -158,6 +172,7 @@ class Certifier:
         self.flights += 1
         if not passes:
             return outcome
+        self.repaired += bool(losses_of(outcome).repairs)
         if self.base is None:
             self.base = point
         if self.structures and not self._is_still_broken(point):
@@ -354,7 +369,16 @@ class Certifier:
             sum(found.open for found in self.dated),
             tuple(sorted(untold.items())),
             unproved,
+            self.limits,
+            self.repaired,
         )
+
+
+def _at(span: Span | None) -> str:
+    """Where a line stands, in brackets."""
+    if span is None:
+        return ""
+    return f" ({Path(span.source.name).name}:{span.source.locate(span.begin)[0]})"
 
 
 def _same(one: Dated, other: Dated) -> bool:

@@ -95,6 +95,8 @@ class RunReader:
         self.values = values
         self.redrawn = redrawn
         self.untold: dict[str, int] = {}
+        self.silent: dict[str, Span | None] = {}  # constraints without a translation, with the first place
+        self.lost: dict[str, Span | None] = {}  # those about something that the flight has no value of
         self.draws = draws  # the variables of each sampled parameter that was read are added
         self.slots: dict[int, Number] = {}
         self.loops: dict[int, str] = {}  # slots of loops, with the object they stand at
@@ -213,6 +215,8 @@ class RunReader:
         claim = None if any(each is None for each in numbers) else claim_of(post.name, numbers)
         if claim is None:
             self._omit(post.name)
+            why = self.lost if any(each is None for each in numbers) else self.silent
+            why.setdefault(post.name, post.span)
             return
         if base:
             yield self._demand("", tuple(numbers), z3.And(claim, *base), post.span)

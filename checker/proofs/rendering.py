@@ -5,8 +5,9 @@ from typing import Any
 
 from checker.excerpts import Excerpts
 from checker.explain import excerpt_lines, place_data
+from checker.losses import losses_of
 from checker.names import relative_name
-from checker.oracle import judge
+from checker.oracle import Judgement, judge, judge_losses
 from checker.proofs.box import Box, Point
 from checker.proofs.certify import Certainty, Certificate
 from checker.proofs.constants import SafeConstant
@@ -15,7 +16,7 @@ from checker.proofs.uncertain import PlanNetwork, VehicleDuration
 from checker.rendering import failure_text
 from checker.sampling.rendering import number
 from nddl_lang.text.source import Span
-from runtime.executive.outcome import SourcePlace
+from runtime.executive.outcome import Outcome, SourcePlace
 
 
 def certificate_lines(name: str, found: Certificate, box: Box, excerpts: Excerpts) -> list[str]:
@@ -33,7 +34,7 @@ def certificate_lines(name: str, found: Certificate, box: Box, excerpts: Excerpt
             lines = [f"{name}: unknown: {found.why}"]
     lines.append(f"  box: {sides}")
     if found.certainty is Certainty.REFUTED and found.outcome is not None:
-        judgement = judge(found.outcome)
+        judgement = _judged(found, found.outcome)
         lines.append(f"  {judgement.code} at tick {found.outcome.last_tick}: {_failure(found)}")
         for span in found.lines:
             lines += excerpt_lines(place_of(span, excerpts.root), excerpts, indent="  ")
@@ -44,7 +45,11 @@ def certificate_lines(name: str, found: Certificate, box: Box, excerpts: Excerpt
 
 def _failure(found: Certificate) -> str:
     assert found.outcome is not None
-    return failure_text(judge(found.outcome), found.outcome.open_goals)
+    return failure_text(_judged(found, found.outcome), found.outcome.open_goals)
+
+
+def _judged(found: Certificate, outcome: Outcome) -> Judgement:
+    return judge_losses(judge(outcome), losses_of(outcome), found.limits)
 
 
 def _subset_lines(found: Certificate) -> list[str]:
@@ -69,6 +74,11 @@ def _basis_lines(found: Certificate) -> list[str]:
         ]
         if found.why:
             lines.append(f"  {found.why}")
+    if found.repaired:
+        lines.append(
+            f"  in {found.repaired} of them a plan was repaired: what a repair forgets is not held against a mission"
+            " (`max_repairs = 0` under [check] does that)"
+        )
     if found.open:
         lines.append(f"  {found.open} demands are on what the missions left undecided; nothing is said of them")
     return lines
@@ -98,7 +108,7 @@ def certificate_data(found: Certificate, box: Box, excerpts: Excerpts) -> dict[s
         "why": found.why,
         "box": {name: [side.lower, side.upper] for name, side in box.sides.items()},
         "point": found.point,
-        "code": judge(found.outcome).code if found.outcome is not None else None,
+        "code": _judged(found, found.outcome).code if found.outcome is not None else None,
         "lines": [place_data(place_of(span, excerpts.root), excerpts) for span in found.lines],
         "subset": list(found.subset),
         "subset_is_smallest": found.is_smallest,
@@ -109,6 +119,7 @@ def certificate_data(found: Certificate, box: Box, excerpts: Excerpts) -> dict[s
         "open": found.open,
         "untold": dict(found.untold),
         "unproved": list(found.unproved),
+        "repaired": found.repaired,
     }
 
 

@@ -12,6 +12,7 @@ from checker.proofs.claims import Number
 from checker.proofs.demands import Demand, RunReader, equal, gap
 from checker.proofs.operands import ProgramNames, Symbols, names_of, token_number
 from compiler.program import END, FIRST_PARAMETER, START, NewGlobal, Program
+from nddl_lang.text.source import Span
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ReactorConfiguration
 from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, TokenRecord, Value
 
@@ -34,6 +35,8 @@ class Structure:
     earliest: dict[str, int] = field(default_factory=dict)  # starts that the mission file asks for
     draws: dict[str, dict[str, None]] = field(default_factory=dict)  # variables of each sampled parameter
     untold: dict[str, int] = field(default_factory=dict)
+    silent: dict[str, Span | None] = field(default_factory=dict)  # of these constraints, those z3 has no word for
+    lost: dict[str, Span | None] = field(default_factory=dict)  # those about what a repair cut off
     symbols: Symbols = field(default_factory=Symbols)
 
 
@@ -111,6 +114,10 @@ class _ReactorReader:
             self._add(reader.bare(self.names.predicates[token.predicate].body, token.key))
             for run in token.runs:
                 self._add(reader.follow(program.rules[run.rule].body, run, token.key))
+        for name, span in reader.silent.items():
+            self.found.silent.setdefault(name, span)
+        for name, span in reader.lost.items():
+            self.found.lost.setdefault(name, span)
         for name, count in reader.untold.items():
             self.found.untold[name] = self.found.untold.get(name, 0) + count
         self._alias(standing)

@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from checker.excerpts import Excerpts
 from checker.flight import fly_recorded
+from checker.losses import Limit
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.variant import open_over
@@ -14,6 +16,8 @@ from checker.oracle import Verdict, judge
 from checker.proofs.box import Point
 from checker.proofs.certify import Certainty, Certifier
 from checker.proofs.constants import places_of, safe_constant, with_value
+from checker.proofs.rendering import certificate_lines
+from nddlc.certify import certifier_of
 from runtime.executive.configuration import PropertyConfiguration, PropertyKind, TokenPattern
 from runtime.executive.outcome import Outcome
 from runtime.executive.record import MissionRecord
@@ -142,3 +146,33 @@ def test_what_code_does_is_not_proved() -> None:
     found = certifier(MODELS / "auv" / "inl" / "mission.toml").certify()
     assert found.certainty is Certainty.UNKNOWN
     assert "Python" in found.why
+
+
+@pytest.mark.parametrize(("most_repairs", "certainty"), [(None, Certainty.UNKNOWN), (0, Certainty.REFUTED)])
+def test_a_limit_that_only_repairs_get_over_is_not_certified(most_repairs: int | None, certainty: Certainty) -> None:
+    """With properties or without: that the rules hold is said of what was proved alone; and [check] has its say."""
+    mission, _ = read_mission(Path(__file__).parent / "unseen/drill/mission.toml")
+    assert mission is not None
+    planner = Path(mission.agent.root) / "planner.nddl"
+    overlay = ((str(planner.resolve()), planner.read_text().replace("int ICE_MAX = 40;", "int ICE_MAX = 25;")),)
+    limits = () if most_repairs is None else ((Limit.REPAIRS, most_repairs),)
+    mission = replace(mission, check=replace(mission.check, limits=limits))
+    proof = certifier_of(mission, load_models(mission, open_over(overlay)), 1)
+    found = proof.certify(corners=False)
+    assert found.certainty is certainty
+    told = "\n".join(certificate_lines("drill", found, proof.box, Excerpts(planner.parent)))
+    assert "the rules hold" not in told
+    assert ("L3 at tick 700" if certainty is Certainty.REFUTED else "a plan was repaired") in told
+
+
+@pytest.mark.parametrize("kind", ["lost", "silent"])
+def test_that_the_rules_hold_is_not_said_where_a_line_is_not_part_of_the_proof(kind: str) -> None:
+    proof = certifier(MODELS / "gps" / "mended.toml")
+    asked = PropertyConfiguration("moving", PropertyKind.NEVER, TokenPattern("nav", "None"))
+    proof.agent = replace(proof.agent, properties=(asked,))
+    assert "the rules hold" in proof.certify(corners=False).why
+    line = next(each.span for each in proof.structures[0].demands if each.span is not None)
+    getattr(proof.structures[0], kind)["leq"] = line
+    why = proof.certify(corners=False).why
+    assert "the rules hold" not in why
+    assert f"({Path(line.source.name).name}:{line.source.locate(line.begin)[0]})" in why
