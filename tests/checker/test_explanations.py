@@ -115,11 +115,17 @@ def test_a_damaged_page_is_not_told(checked: Path, tmp_path: Path) -> None:
     assert kept_page(copy, "latest", None, FLIGHTS) is None
 
 
-def test_a_run_that_begins_again_forgets_its_pages(checked: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("is_whole", [True, False])
+def test_a_run_that_begins_again_with_missions_to_fly_forgets_its_pages(
+    checked: Path, tmp_path: Path, is_whole: bool
+) -> None:
     copy = tmp_path / "runs.sqlite"
     shutil.copyfile(STORE, copy)
+    if not is_whole:
+        with closing(sqlite3.connect(copy)) as connection, connection:
+            connection.execute("DELETE FROM missions WHERE number = 1")
     with open_store(copy) as store:
         known = store.find("latest")
         assert known is not None
         store.begin(known, keep=True)
-    assert kept_page(copy, "latest", None, FLIGHTS) is None
+    assert kept_page(copy, "latest", None, FLIGHTS) == (page() if is_whole else None)
