@@ -10,9 +10,9 @@ import math
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
-from checker.codes import ILL_BATCH
+from checker.codes import ILL_BATCH, NO_EFFECT
 from nddl_lang.text.byte_places import BytePlaces
-from nddl_lang.text.diagnostic import Diagnostic
+from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Anchor, Source, Span
 from runtime.executive.configuration import Bounds, Mode, ParameterConfiguration
@@ -21,6 +21,7 @@ _UPDATE = 10  # ticks, where the file does not say
 _PARAMETER = "SampledParameter"
 _PARTS = ("BatchSampler", "Sampler")
 _VALUES = ("Seed", "Min", "Max", "Mean", "StdDev", "UpdateFrequency", "Value")
+_OTHERS = ("name", "component", "value")
 # Component: the distribution and whether values are whole, or how often they are drawn.
 _SHAPES = {
     "UniformRandInt": ("uniform", True),
@@ -118,7 +119,7 @@ def read_batch(source: Source) -> tuple[BatchFile | None, tuple[Diagnostic, ...]
         return None, (ILL_BATCH.at(reader.span(), reason="it declares a document type"),)
     assert reader.root is not None
     complaints: list[Diagnostic] = []
-    nodes = _find(reader.root)
+    nodes = _find(reader.root, _PARAMETER)
     if not nodes:
         complaints.append(ILL_BATCH.at(Span(reader.anchor, 0, 1), reason=f"it has no element `{_PARAMETER}`"))
     found = [_parameter(node, complaints) for node in nodes]
@@ -126,19 +127,23 @@ def read_batch(source: Source) -> tuple[BatchFile | None, tuple[Diagnostic, ...]
     for node, name in zip(nodes, names, strict=True):
         if names.count(name) > 1 and nodes[names.index(name)] is not node:
             complaints.append(ILL_BATCH.at(node.span, reason=f"the parameter `{name}` is there twice"))
-    if complaints:
-        return None, tuple(complaints)
     seeds = [seed for _, seed in found if seed is not None]
-    return BatchFile(tuple(one for one, _ in found), seeds[0] if seeds else None), ()
+    for lone in _find(reader.root, "BatchSampler", _PARAMETER):  # it draws the seeds of all
+        seed = _values(lone, complaints).get("Seed")
+        seeds += [] if seed is None else [int(seed)]
+    if any(one.severity is Severity.ERROR for one in complaints):
+        return None, tuple(complaints)
+    return BatchFile(tuple(one for one, _ in found), seeds[0] if seeds else None), tuple(complaints)
 
 
-def _find(node: _Node) -> list[_Node]:
+def _find(node: _Node, tag: str, closed: str = "") -> list[_Node]:
+    """The outermost elements of a kind, in order; what is inside of a `closed` one is not looked at."""
     found, pending = [], [node]
     while pending:
         node = pending.pop()
-        if node.tag == _PARAMETER:
+        if node.tag == tag:
             found.append(node)
-        else:
+        elif node.tag != closed:
             pending += reversed(node.children)
     return found
 
@@ -151,9 +156,7 @@ def _parameter(node: _Node, complaints: list[Diagnostic]) -> tuple[ParameterConf
     component = _component(node, _RHYTHMS, complaints) or "UniformRandom"
     mode, shape = _RHYTHMS[component]
     parts = {child.tag: child for child in node.children if child.tag in _PARTS}
-    for child in node.children:
-        if child.tag not in (*_PARTS, *_VALUES):
-            complaints.append(_unknown(child, _PARAMETER, _PARTS))
+    common = _values(node, complaints)  # of what has no place of its own
     batch = parts.get("BatchSampler")
     values: dict[str, dict[str, float]] = {tag: {} for tag in _PARTS}
     values |= {tag: _values(part, complaints) for tag, part in parts.items()}
@@ -166,15 +169,15 @@ def _parameter(node: _Node, complaints: list[Diagnostic]) -> tuple[ParameterConf
         inner = _component(parts[drawing], _SHAPES, complaints, is_needed=False)
         if inner is not None:
             shape, is_whole = _SHAPES[inner]
-    given = values[drawing] | (_values(node, complaints) if not parts else {})
+    given = common | values[drawing]
     known = len(complaints)
     lower, upper, clip = _range(shape, given, parts.get(drawing, node), complaints)
     if begun < known:  # what stands there says why the range is none
         del complaints[known:]
-    update = int(values["Sampler"].get("UpdateFrequency", _UPDATE))
+    update = int(values["Sampler"].get("UpdateFrequency", common.get("UpdateFrequency", _UPDATE)))
     if update < 1:
         complaints.append(ILL_BATCH.at(node.span, reason="`UpdateFrequency` must be at least 1"))
-    seed = values["BatchSampler"].get("Seed")
+    seed = values["BatchSampler"].get("Seed", common.get("Seed"))
     listed = (lower,) if shape == "fixed" else ()
     made = ParameterConfiguration(name, lower, upper, shape, mode, max(update, 1), clip, is_whole, listed)
     return made, None if seed is None else int(seed)
@@ -243,10 +246,15 @@ def _values(node: _Node, complaints: list[Diagnostic]) -> dict[str, float]:
     for child in node.children:
         if child.tag in _VALUES:
             texts[child.tag] = (child.attributes.get("value", child.text).strip(), child.span)
-        elif child.tag in _SHAPES:
+        elif child.tag in _SHAPES and node.tag != _PARAMETER:
             texts |= {key: (f"{value!r}", child.span) for key, value in _values(child, complaints).items()}
         elif child.tag not in _PARTS:
-            complaints.append(_unknown(child, node.tag, _VALUES))
+            complaints.append(_unknown(child, node.tag, _PARTS if node.tag == _PARAMETER else _VALUES))
+    for key in node.attributes:
+        if key not in (*_VALUES, *_OTHERS):
+            close = nearest(key, _VALUES)
+            advice = f"did you mean `{close}`?" if close else "there are: " + ", ".join(_VALUES)
+            complaints.append(NO_EFFECT.at(node.span, what=key, help=advice))
     found: dict[str, float] = {}
     for key, (text, span) in texts.items():
         try:

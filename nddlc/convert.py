@@ -23,9 +23,9 @@ def command(path: str, output: Path | None) -> int:
     """
     (file,) = readable((path,), ())
     batch, complaints = read_batch(read_source(file))
+    for each in complaints:
+        click.echo(render(each, colour=colours()), err=True)
     if batch is None:
-        for each in complaints:
-            click.echo(render(each, colour=colours()), err=True)
         return _UNUSABLE
     text = batch_toml(batch)
     if output is None:

@@ -87,7 +87,8 @@ class Goals:
         if not holds:
             bench.rewind_to(mark)
             bench.commit()
-            self.refuse(request, Reason(ReasonKind.MISFIT))
+            unknown = bench.unknown_argument(predicate, request.arguments)
+            self.refuse(request, Reason(ReasonKind.MISFIT, message=unknown))
             return
         bench.commit()
         bench.remember_request(token)

@@ -30,7 +30,7 @@ _REASONS = {
     ReasonKind.NO_LOOKAHEAD: "its owner does not look ahead and takes no goals",
     ReasonKind.NO_OWNER: "nobody owns `{timeline}` any more",
     ReasonKind.UNKNOWN_PREDICATE: "`{timeline}` has no predicate `{predicate}`",
-    ReasonKind.MISFIT: "its arguments do not fit",
+    ReasonKind.MISFIT: "its arguments do not fit{message}",
     ReasonKind.TOO_LATE: "too late",
     ReasonKind.DROPPED: "dropped in the repair",
     ReasonKind.REJECTED: "the planner found no place for it",

@@ -105,6 +105,15 @@ class Workbench(PlanView):
             found = self.parameters[predicate] = {parameter.name: k for k, parameter in enumerate(parameters)}
         return found
 
+    def unknown_argument(self, predicate: int, arguments: Arguments) -> str:
+        """What of `arguments` a predicate does not have, in words; empty if it has all."""
+        names = self._parameter_numbers(predicate)
+        for name, _ in arguments:
+            if name not in names:
+                there = ", ".join(f"`{each}`" for each in names) or "none"
+                return f": there is no parameter `{name}` (there is {there})"
+        return ""
+
     def restrict_parameters(self, t: int, arguments: Arguments, span: int) -> bool:
         """Narrow parameters to what somebody else knows of them.
 

@@ -127,3 +127,30 @@ def test_a_mission_file_may_name_a_batch_file(tmp_path: Path) -> None:
     mission, found = parse_mission(Source("m.toml", text.replace("b.xml", "c.xml")), tmp_path)
     assert mission is None
     assert [(one.code.id, one.span.line) for one in found] == [("NDDL708", 4)]
+
+
+def test_what_stands_beside_the_samplers_counts(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """Attributes of a parameter, and a batch sampler for all; what has no effect is told."""
+    text = """<Batch>
+  <BatchSampler component="UniformRandInt" Seed="7" Missions="50"/>
+  <SampledParameter name="PACE" component="ReSeededUniformRandom" UpdateFrequency="25" Min="9" Max="13"/>
+  <SampledParameter name="LIGHT" component="ReSeededUniformRandom" updateFrequncy="30" Max="4">
+    <Sampler><Min>0.5</Min></Sampler>
+  </SampledParameter>
+</Batch>"""
+    batch, complaints = read_batch(Source("b.xml", text))
+    assert batch is not None and batch.seed == 7
+    assert [(one.name, one.lower, one.upper, one.update) for one in batch.parameters] == [
+        ("PACE", 9.0, 13.0, 25),
+        ("LIGHT", 0.5, 4.0, 10),
+    ]
+    told = [(one.span.line, one.message, one.help) for one in complaints]
+    assert [(message, advice) for _, message, advice in told] == [
+        ("`updateFrequncy` has no effect here", "did you mean `UpdateFrequency`?"),
+        ("`Missions` has no effect here", "there are: Seed, Min, Max, Mean, StdDev, UpdateFrequency, Value"),
+    ]
+    (tmp_path / "b.xml").write_text(text)
+    assert run(["convert", str(tmp_path / "b.xml")]) == 0
+    printed = capsys.readouterr()
+    assert "update = 25" in printed.out and "seed = 7" in printed.out
+    assert "`Missions` has no effect here" in printed.err

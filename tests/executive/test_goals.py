@@ -69,6 +69,14 @@ def test_a_goal_whose_arguments_do_not_fit_is_refused() -> None:
     assert outcome.abort is None and len(outcome.open_goals) == 1
 
 
+@pytest.mark.parametrize("compiles", [True, False])
+def test_an_argument_that_the_predicate_does_not_have_is_named(compiles: bool) -> None:
+    goals = (GoalConfiguration("lamp", "On", mandatory=True, parameters=(("m", 7),)),)
+    outcome = flown(lamp(""), goals=goals, until=20, compiles=compiles).outcome
+    told = "0 refuse sim lamp On(m=7.0): its arguments do not fit: there is no parameter `m` (there is `n`)"
+    assert lines(outcome, "refuse") == [told]
+
+
 def test_a_goal_that_comes_too_late_is_refused() -> None:
     outcome = fly(user(""), lamp(""), goals=busy(at=5, start=(1, 4)))
     assert open_goals(outcome) == ["Busy: too late"]
