@@ -52,6 +52,7 @@ class Fault:
     causes: Causes = NO_CAUSES
     interval: Interval | None = None  # of the rate of this fault alone
     is_cut: bool = False  # a signal ended the search for its condition
+    is_tested: bool = False  # its condition was sought by flights
 
     @property
     def places(self) -> tuple[SourcePlace, ...]:
@@ -241,9 +242,9 @@ def _fault(
     conflict = failed_by(example.outcome).conflict
     confirmation = confirm(conflict, text) if conflict is not None else None
     condition = known.get(bucket.example, bucket.example)
-    if not isinstance(condition, int):
-        return Fault(bucket, condition, confirmation)
-    return Fault(bucket, find_condition(bucket, results, agent, seed, refly), confirmation)
+    if isinstance(condition, int):
+        condition = find_condition(bucket, results, agent, seed, refly)
+    return Fault(bucket, condition, confirmation, is_tested=refly is not None and bool(agent.parameters))
 
 
 def _alike(buckets: tuple[Bucket, ...], known: Conditions) -> tuple[Bucket, ...]:

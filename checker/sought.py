@@ -16,10 +16,10 @@ from checker.faults import Sought
 from checker.findings import Ending, Findings
 
 
-def seal_of(results: Sequence[MissionResult], flights: int, confidence: float) -> str:
+def seal_of(results: Sequence[MissionResult], flights: int, confidence: float, *, tests_conditions: bool) -> str:
     """The SHA-256 of all that findings depend on beside the run itself."""
     told = [(one.number, one.verdict.value, one.judgement.code) for one in results]
-    content = json.dumps([engine_digest(), sorted(told), flights, confidence])
+    content = json.dumps([engine_digest(), sorted(told), flights, confidence, tests_conditions])
     return hashlib.sha256(content.encode()).hexdigest()
 
 

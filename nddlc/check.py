@@ -150,7 +150,7 @@ def command(
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
     judged = [campaign.judged(one) for one in flown.results]
-    seal = seal_of(judged, flights, campaign.mission.check.confidence)
+    seal = seal_of(judged, flights, campaign.mission.check.confidence, tests_conditions=not no_conditions)
     sought = None if no_store or not flights else sought_before(flown, campaign.run.id, seal, store_path)
     with Interruption() as interruption:
         with SeekingDisplay(_SECONDS) as seeking:

@@ -16,6 +16,7 @@ from checker.smt.edges import find_failing_range
 from runtime.executive.configuration import AgentConfiguration
 
 _LEAST_PRECISION, _LEAST_RECALL = 0.5, 0.2  # below, a condition is not worth its words
+_LEAST_GAIN = 1 / 3  # of what is still open when only the rate of failures is known
 _LEAST_HELD_BACK = 4  # failing missions to measure on, where none can be flown
 _FIRST_SHARE = 0.6  # of the flights
 _ROUNDS = 3  # in which mistakes of the rules are looked into
@@ -48,9 +49,9 @@ def find_condition(
     conjunctions = _induced(space, rows, find_edges(flights, crossings), flights.rows())
     for _ in range(_ROUNDS):
         known = [*rows, *flights.rows()]
-        claimed = [(space.point(row), label, holds(conjunctions, row)) for row, label in known]
-        missed = [point for point, label, is_claimed in claimed if label is Ended.FAILS and not is_claimed]
-        wrong = [point for point, label, is_claimed in claimed if label is Ended.PASSES and is_claimed]
+        told = [(space.point(row), label, holds(conjunctions, row)) for row, label in known]
+        missed = [point for point, label, is_claimed in told if label is Ended.FAILS and not is_claimed]
+        wrong = [point for point, label, is_claimed in told if label is Ended.PASSES and is_claimed]
         if not missed and not wrong:
             break
         more = mend_crossings(flights, crossings, missed or fails, wrong or passes)
@@ -61,7 +62,7 @@ def find_condition(
     if not conjunctions:
         return None
     measured = measure(conjunctions, space, bucket, batch_seed, refly, fresh_budget(example))
-    found = _condition(conjunctions, measured, flights.count, space, has_flown=True)
+    found = claimed(conjunctions, measured, flights.count, space, _share_of(rows), has_flown=True)
     return None if found is None else replace(found, in_terms=_in_terms(found, example, space))
 
 
@@ -133,14 +134,30 @@ def _from_samples(space: Space, rows: Sequence[tuple[Row, Ended]]) -> Condition 
         return None
     conjunctions = _induced(space, [*fails[::2], *rest[::2]], [])
     measured = measured_on(held_back, conjunctions) if conjunctions else None
-    return _condition(conjunctions, measured, 0, space, has_flown=False)
+    return claimed(conjunctions, measured, 0, space, _share_of(rows), has_flown=False)
 
 
-def _condition(
-    conjunctions: tuple[Conjunction, ...], measured: Quality | None, flights: int, space: Space, *, has_flown: bool
+def _share_of(rows: Sequence[tuple[Row, Ended]]) -> float:
+    """How many of the missions of the run fail so."""
+    return sum(label is Ended.FAILS for _, label in rows) / max(len(rows), 1)
+
+
+def claimed(
+    conjunctions: tuple[Conjunction, ...],
+    measured: Quality | None,
+    flights: int,
+    space: Space,
+    share: float,
+    *,
+    has_flown: bool,
 ) -> Condition | None:
-    """What may be claimed: nothing that holds half the time, and of redrawn parameters only what holds."""
+    """What may be claimed: nothing that holds half the time, and of redrawn parameters only what holds.
+
+    `share` of all missions fail so anyway: a condition that tells hardly more than that is none.
+    """
     if measured is None or measured.precision.value < _LEAST_PRECISION or measured.recall.value < _LEAST_RECALL:
+        return None
+    if measured.precision.value < share + _LEAST_GAIN * (1.0 - share):
         return None
     near = measured.near if has_flown else None
     found = Condition(conjunctions, measured.precision, measured.recall, measured.fresh, near, flights)

@@ -58,7 +58,10 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
         for number, place in enumerate(fault.places):
             about = _role(place, fault)
             lines += excerpt_lines(place, excerpts, marked=number == 0, indent="   ", about=about)
-        lines += condition_lines(fault.condition, "   ") if fault.condition is not None else []
+        if fault.condition is not None:
+            lines += condition_lines(fault.condition, "   ")
+        elif fault.is_tested:
+            lines.append("   no condition on the parameters tells these missions well enough from others")
         if fault.confirmation is not None:
             lines.append(f"   z3 {confirmation_text(fault.confirmation, fault.condition)}")
         lines.append(f"   why: {explained_by(findings, bucket.example)}")

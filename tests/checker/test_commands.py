@@ -216,8 +216,9 @@ def test_a_run_that_is_stored_is_checked_again_without_seeking(agent: None, monk
         (("--flights", "4"), 2),
         (("--flights", "4"), 2),
         (("--missions", "44"), 3),
-        (("--fresh",), 4),
-        (("--no-store",), 5),
+        (("--no-conditions",), 4),
+        (("--fresh",), 5),
+        (("--no-store",), 6),
     ):
         assert run([*check, *more]) == 1
         assert len(sought) == times, more

@@ -10,8 +10,9 @@ import pytest
 
 from checker.batch.result import MissionResult
 from checker.conditions.condition import Condition, Extreme, Feature, Literal, Share, axis_feature, holds
+from checker.conditions.find import claimed
 from checker.conditions.flights import Ended
-from checker.conditions.measure import measured_on
+from checker.conditions.measure import Quality, measured_on
 from checker.conditions.record import read_condition, write_condition
 from checker.conditions.rendering import condition_claim, condition_text
 from checker.conditions.rules import induce
@@ -183,6 +184,27 @@ def test_words_of_conditions() -> None:
     assert condition_text(told) == "2 * P / Q - R * R > 0.1"
     assert read_condition(write_condition(told)) == told
     assert read_condition(write_condition(None)) is None
+
+
+@pytest.mark.parametrize(
+    ("precision", "share", "is_told"),
+    [
+        (0.84, 0.88, False),
+        (0.9, 0.88, False),
+        (0.97, 0.88, True),
+        (0.84, 0.3, True),
+        (0.5, 0.02, True),
+        (0.5, 0.3, False),
+    ],
+)
+def test_a_condition_that_tells_hardly_more_than_the_rate_is_none(
+    precision: float, share: float, is_told: bool
+) -> None:
+    literal = Literal(axis_feature("P"), True, 0.5)
+    agent = AgentConfiguration("one", ".", 10, (), parameters=(ParameterConfiguration("P", 0.0, 1.0),))
+    quality = Quality(Share(precision, (0.0, 1.0)), Share(0.9, (0.0, 1.0)), 200, 20)
+    found = claimed(((literal,),), quality, 10, Space(agent, []), share, has_flown=True)
+    assert (found is not None) == is_told
 
 
 def test_an_endless_range_is_that_of_what_was_drawn() -> None:
