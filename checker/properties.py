@@ -196,7 +196,8 @@ def _fate(
             spans = [(token, _margin(pattern, token)) for token in told if token.start < stop and token.end > first]
     worst = next((token for token, margin in spans if margin < 0.0), None)
     least = min((margin for _, margin in spans), default=math.inf)
-    return PropertyFate(one.name, worst is None, None if worst is None else max(worst.start, first), least)
+    is_void = one.kind is PropertyKind.WITHIN and least == math.inf
+    return PropertyFate(one.name, worst is None, None if worst is None else max(worst.start, first), least, is_void)
 
 
 def _told_of(pattern: TokenPattern, held: list[_Held]) -> list[_Held]:

@@ -23,6 +23,14 @@ def damage_of(result: MissionResult) -> float:
     return HEAVY * goals + math.log2(1.0 + losses.lost + losses.dropped + 0.5 * losses.repaired)
 
 
+def voided_of(result: MissionResult, failed: MissionResult) -> float:
+    """What it costs that the property which was violated is kept only as nothing that it promises was due."""
+    broken = failed.judgement.broken
+    if broken is None or result.outcome is None:
+        return 0.0
+    return HEAVY * any(one.is_void for one in result.outcome.properties if one.name == broken.name)
+
+
 def is_farther(result: MissionResult, failed: MissionResult) -> bool:
     """Whether a mission that fails as well does so later in another way, or achieves more.
 

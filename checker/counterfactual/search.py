@@ -11,7 +11,7 @@ from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.counterfactual.candidates import candidates_of
-from checker.counterfactual.damage import HEAVY, damage_of
+from checker.counterfactual.damage import HEAVY, damage_of, voided_of
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.effort import Bounds, Stopwatch
 from checker.counterfactual.loose_ends import loose_ends
@@ -73,7 +73,7 @@ class CauseSearch:
         if cause.change is None or cause.claim is Claim.EVADES or left <= 0.0 or self._bounds.flights == 0:
             return False
         result = _fly(self._world, cause.change, failed, left)
-        return result.verdict is Verdict.PASS and damage_of(result) < HEAVY
+        return result.verdict is Verdict.PASS and damage_of(result) + voided_of(result, failed) < HEAVY
 
 
 def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]:

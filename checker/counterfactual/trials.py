@@ -13,7 +13,7 @@ from checker.batch.interruption import InterruptedSearch
 from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.counterfactual.candidates import Candidate, Suspicion
-from checker.counterfactual.damage import HEAVY, collapsed_of, course_of, damage_of, is_farther, strayed_of
+from checker.counterfactual.damage import HEAVY, collapsed_of, course_of, damage_of, is_farther, strayed_of, voided_of
 from checker.counterfactual.effort import Bounds, Stopwatch
 from checker.counterfactual.follow_ups import alternatives, follow_ups
 from checker.counterfactual.numbers import between, is_doubling
@@ -332,7 +332,8 @@ class _Trials:
 
     def read(self, candidate: Candidate, edit: SmallEdit, cost: float, result: MissionResult) -> LineTrial:
         """What a flight of the first failed mission tells that passes with an edit."""
-        damage = sum(of(result, self.missions.failed[0]) for of in (strayed_of, collapsed_of)) + damage_of(result)
+        lost = sum(of(result, self.missions.failed[0]) for of in (strayed_of, collapsed_of, voided_of))
+        damage = lost + damage_of(result)
         return LineTrial(candidate, edit, damage, cost, is_evasive=self.missions.is_evasive(result))
 
     def confirmed(self, trial: LineTrial, helping: Sequence[LineTrial], usage: Usage) -> LineTrial:
@@ -381,7 +382,7 @@ class _Trials:
                 missions += 1
                 if result.verdict is Verdict.PASS:
                     helped += 1
-                    damage = max(damage, damage_of(result) + strayed_of(result, mission))
+                    damage = max(damage, damage_of(result) + strayed_of(result, mission) + voided_of(result, mission))
                 else:
                     against = against or mission
         return replace(trial, damage=damage, helped=helped, missions=missions), against

@@ -338,13 +338,15 @@ class OpenGoal:
 class PropertyFate:
     """Whether a property of the mission was kept; if not, the tick of its violation.
 
-    `margin` is how far it was from being violated, infinite where no number decides.
+    `margin` is how far it was from being violated, infinite where no number decides. `is_void`: nothing that it
+    promises was due, as what that follows on never happened, or too late.
     """
 
     name: str
     is_kept: bool
     tick: int | None
     margin: float
+    is_void: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -119,7 +119,8 @@ LATE_UP = TokenPattern("dive", "Up", (), "start > 60")
 def test_a_property_has_its_fate(
     kind: str, pattern: TokenPattern, given: dict[str, Any], kept: bool, tick: int | None, margin: float
 ) -> None:
-    assert fate(kind, pattern, **given) == PropertyFate("p", kept, tick, margin)
+    is_void = kind == "within" and margin == float("inf")
+    assert fate(kind, pattern, **given) == PropertyFate("p", kept, tick, margin, is_void)
 
 
 PROFILES = (

@@ -1,11 +1,15 @@
 """Trials of a fault are counted for what was flown; what a name or a value of an enumeration says for a change."""
 
+import math
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
+
+import pytest
 
 from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import Candidate, Suspicion
-from checker.counterfactual.damage import collapsed_of
+from checker.counterfactual.damage import HEAVY, collapsed_of, voided_of
 from checker.counterfactual.effort import Bounds
 from checker.counterfactual.smallness import cost_of, delay_of
 from checker.counterfactual.trials import Missions, Trials, Try, try_out
@@ -14,7 +18,7 @@ from checker.counterfactual.usage import usage_of
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
 from checker.mutation.variant import load_graph
 from checker.oracle import Judgement, Verdict
-from runtime.executive.outcome import Event, EventKind, Outcome, Phase
+from runtime.executive.outcome import Event, EventKind, Outcome, Phase, PropertyFate
 
 MODEL = """#include "TREX.nddl"
 int GRACE;
@@ -142,3 +146,15 @@ def test_a_mission_that_passes_as_a_token_takes_no_time_any_more_has_lost_someth
 
     assert collapsed_of(flown(1), flown(40)) > collapsed_of(flown(8), flown(40)) == 0.0
     assert collapsed_of(flown(1), flown(1)) == 0.0
+
+
+@pytest.mark.parametrize(("is_void", "name", "cost"), [(True, "p", HEAVY), (False, "p", 0.0), (True, "q", 0.0)])
+def test_a_property_that_is_kept_as_nothing_was_due_is_evaded(is_void: bool, name: str, cost: float) -> None:
+    broken = PropertyFate("p", False, 60, -math.inf)
+    outcome = Outcome(1, 90, 200, None, (), (), ())
+    passed = MissionResult(1, 1, Judgement(Verdict.PASS), outcome, True)
+    failed = replace(passed, judgement=Judgement(Verdict.FAIL, "P1", broken=broken))
+    fates = (PropertyFate(name, True, None, math.inf, is_void),)
+    again = replace(passed, outcome=replace(outcome, properties=fates))
+    assert voided_of(again, failed) == cost
+    assert voided_of(again, passed) == 0.0
