@@ -230,7 +230,7 @@ def coverage_of(models: ModelSet, results: Sequence[MissionResult]) -> Coverage:
         fired = fired if site.branch else count
         source = site.span.source
         line, column = source.locate(site.span.begin)
-        text = source.text[site.span.begin : site.span.end].split("\n")[0]
+        text = site.span.text.split("\n")[0]
         place = SourcePlace(relative_name(source.name, Path(models.agent.root)), line, column, text)
         key = (place.file, site.span.begin, site.branch)  # a file that several models include counts once
         known = found.get(key)

@@ -12,7 +12,7 @@ def coverage_text(coverage: Coverage) -> str:
     rules = [one for one in coverage.sites if not one.branch]
     branches = [one for one in coverage.sites if one.branch]
     lines = [
-        f"coverage of {coverage.missions} missions: {_share(rules)} rules fired, {_share(branches)} branches taken"
+        f"coverage of {coverage.missions} mission{'' if coverage.missions == 1 else 's'}: {_share(rules)} rules fired, {_share(branches)} branches taken"
     ]
     for one in coverage.missed[:_MOST]:
         where = f"{one.place.file}:{one.place.line}"
