@@ -186,12 +186,17 @@ class Table:
     def rows(self, key: str, width: int) -> tuple[tuple[float, ...], ...]:
         """A list of lists of `width` finite numbers, empty by default."""
         value = self._take(key)
-        if isinstance(value, list) and all(
-            isinstance(row, list) and len(row) == width and all(is_finite_number(one) for one in row) for row in value
-        ):
-            return tuple(tuple(float(one) for one in row) for row in value)
-        self._complain_of_type(key, value, f"a list of rows of {width} numbers")
-        return ()
+        if not isinstance(value, list) or not all(isinstance(row, list) for row in value):
+            self._complain_of_type(key, value, f"a list of rows of {width} numbers")
+            return ()
+        for index, row in enumerate(value):
+            if len(row) != width or not all(is_finite_number(one) for one in row):
+                found = f"{len(row)}" if len(row) != width else "what is no finite number"
+                span = self.text.value_span((*self.path, key, index))
+                wanted = f"{width} numbers, one for each parameter"
+                self.text.diagnostics.append(WRONG_TYPE.at(span, key=f"row {index + 1}", wanted=wanted, found=found))
+                return ()
+        return tuple(tuple(float(one) for one in row) for row in value)
 
     def bounds(self, key: str, *, is_finite: bool = False) -> Bounds | None:
         """A pair `[lower, upper]`, or one number for both; absent is None."""

@@ -53,7 +53,7 @@ def _read_parameter(name: str, table: Table) -> tuple[ParameterConfiguration, bo
     clip = table.bounds("clip")
     table.asked += ["mean", "sigma"]
     table.close()
-    _tell_ill_weights(table, weights, len(values))
+    _tell_ill_weights(table, weights, len(values), "of the values")
     for reason in _ill_distribution(table, shape, values, expression):
         table.text.diagnostics.append(ILL_DISTRIBUTION.at(table.text.key_span(table.path), reason=reason))
     if "value" in distribution.keys:
@@ -106,11 +106,11 @@ def _ill_distribution(table: Table, name: str, values: tuple[float, ...], expres
     return reasons
 
 
-def _tell_ill_weights(table: Table, weights: tuple[float, ...], count: int) -> bool:
+def _tell_ill_weights(table: Table, weights: tuple[float, ...], count: int, of_what: str) -> bool:
     """Complain of weights that are none; whether there was a complaint."""
     reasons = []
     if weights and len(weights) != count:
-        reasons.append(f"`weights` has {len(weights)} of {count}, one for each of the values")
+        reasons.append(f"`weights` has {len(weights)} of {count}, one for each {of_what}")
     if weights and (min(weights) < 0.0 or sum(weights) <= 0.0):
         reasons.append("weights must not be negative, and one must be above 0")
     for reason in reasons:
@@ -127,7 +127,7 @@ def _read_joint(name: str, table: Table, known: list[ParameterConfiguration]) ->
     mode = cast("Mode", table.choice("mode", ("inter", "intra"), "inter"))
     update = table.whole("update", 10, 1)
     table.close()
-    is_ill = _tell_ill_weights(table, weights, len(rows))
+    is_ill = bool(rows) and _tell_ill_weights(table, weights, len(rows), "row")
     reasons = []
     if table.values.get("parameters", []) == [] or table.values.get("rows", []) == []:
         reasons.append("a joint table needs `parameters`, a list of names, and `rows` with a value for each")

@@ -11,9 +11,8 @@ def coverage_text(coverage: Coverage) -> str:
     """What no mission exercised, with its lines."""
     rules = [one for one in coverage.sites if not one.branch]
     branches = [one for one in coverage.sites if one.branch]
-    lines = [
-        f"coverage of {coverage.missions} mission{'' if coverage.missions == 1 else 's'}: {_share(rules)} rules fired, {_share(branches)} branches taken"
-    ]
+    flown = f"{coverage.missions} mission{'' if coverage.missions == 1 else 's'}"
+    lines = [f"coverage of {flown}: {_share(rules)} rules fired, {_share(branches)} branches taken"]
     for one in coverage.missed[:_MOST]:
         where = f"{one.place.file}:{one.place.line}"
         lines.append(f"  {where}: {_missed(one)}: {one.place.text.strip()}")

@@ -142,6 +142,6 @@ def _read_bug(table: Table, root: Path, file: str, title: str) -> tuple[str, tup
     except (OSError, ValueError, KeyError, TypeError) as problem:
         reason = f"missing {problem}" if isinstance(problem, KeyError) else str(problem)
         table.text.diagnostics.append(
-            OUT_OF_RANGE.at(span, key="file", wanted="a file with edits", found=f"`{file}`", help=reason)
+            OUT_OF_RANGE.at(span, key="file", wanted="a file whose edits can be made", found=f"`{file}`", help=reason)
         )
         return title, ()

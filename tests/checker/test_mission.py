@@ -141,7 +141,7 @@ update = 4
         ('[parameters.A]\nexpression = "3 + 4"\n', 15, "the expression reads no other parameter: write `value`"),
         ('[parameters.A]\ndistribution = "normal"\nmean = 3\n', 15, "without a `range` needs both `mean` and `sigma`"),
         ("[parameters.A]\nrange = [0, 1]\ndistribution = 'uniform'\nmean = 3\n", 15, "`mean` belongs to a normal or"),
-        ('[joint.S]\nparameters = ["A", "B"]\nrows = [[1, 2], [3]]\n', 17, "`rows` must be a list of rows of 2"),
+        ('[joint.S]\nparameters = ["A", "B"]\nrows = [[1, 2], [3]]\n', 17, "`row 2` must be 2 numbers, one for"),
         ('[joint.S]\nparameters = ["A"]\nrows = [[1]]\nweights = [1, 2]\n', 18, "`weights` has 2 of 1"),
         ('[parameters.A]\nvalue = 1\n[joint.S]\nparameters = ["A"]\nrows = [[1]]\n', 18, "the parameter `A` is there"),
     ],
