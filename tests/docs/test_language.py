@@ -8,6 +8,7 @@ import pytest
 import runtime.build_form
 from compiler.lower import compile_model
 from nddl_lang.analysis import analyse_text
+from nddl_lang.syntax.words import RESERVED
 from nddl_lang.text.diagnostic import Severity
 from runtime.plan.database import PlanDatabase
 
@@ -39,3 +40,8 @@ def test_an_example_of_the_guide_is_consistent(text: str) -> None:
 
 def test_the_guide_has_an_example_of_each_relation_and_statement() -> None:
     assert len(EXAMPLES) >= 35
+
+
+def test_the_guide_names_all_reserved_words() -> None:
+    (part,) = re.findall(r"^## Names\n(.*?)^## ", GUIDE.read_text(encoding="utf-8"), re.M | re.S)
+    assert set(re.findall(r"`(\w+)`", part)) == RESERVED
