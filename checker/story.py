@@ -24,7 +24,7 @@ from checker.proofs.conflict import Confirmation, confirm, needed_elements
 from checker.proofs.places import ModelText
 from checker.requested import PlannerChoice, lines_that_ask, who_chose
 from checker.waiting import Waiting, waited_for
-from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration, PropertyKind
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import (
     Abort,
@@ -42,6 +42,8 @@ from runtime.executive.outcome import (
 
 _MOST_LINES = 8  # that rule out what was tried
 _MOST_ENDS = 3  # flaws against which there was nothing to choose
+_MOST_PROMISED = 4  # requests for what a property promises, and their answers
+_ASKED = (EventKind.REQUEST, EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL)
 _MOST_LOST = 12  # events that are told of a mission that lost too much
 
 
@@ -133,6 +135,7 @@ def tell(
     abort = outcome.abort
     if result.judgement.exceeded is not None:
         way = _lost(outcome, result.judgement.exceeded.limit)
+    way = sorted([*way, *_promised(result, outcome, agent)], key=lambda event: event.tick)
     steps = [
         *draws,
         *(Step(StepKind.EVENT, event.tick, event) for event in way),
@@ -185,6 +188,23 @@ def _lost(outcome: Outcome, limit: Limit) -> list[Event]:
     if limit is not Limit.REPAIRS:
         found = [one for one in found if (one.request is not None and one.request < 0) == is_about_goals]
     return found[:_MOST_LOST]
+
+
+def _promised(result: MissionResult, outcome: Outcome, agent: AgentConfiguration) -> list[Event]:
+    """What a violated property is about: what it follows on, and what became of the requests for what it promises."""
+    broken = result.judgement.broken
+    kept = next((one for one in agent.properties if broken is not None and one.name == broken.name), None)
+    if kept is None or kept.level is not None or broken is None:
+        return []
+    events = list(single_events(outcome.events))
+    about = [one for one in events if one.kind is EventKind.OBSERVATION and one.timeline == kept.pattern.timeline]
+    found = [one for one in about if one.tick == broken.tick and kept.kind is not PropertyKind.REACHED]
+    wanted = kept.pattern if kept.kind is PropertyKind.REACHED else kept.then
+    if wanted is not None:
+        since = found[0].tick if found and kept.kind is PropertyKind.WITHIN else 0
+        asked = [one for one in events if one.kind in _ASKED and one.timeline == wanted.timeline and one.tick >= since]
+        found += [one for one in asked if wanted.predicate in ("", one.predicate)][-_MOST_PROMISED:]
+    return found
 
 
 def suspects(outcome: Outcome, fault: Fault | None) -> tuple[str, ...]:
