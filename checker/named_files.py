@@ -37,6 +37,8 @@ def _suggest_file(root: Path, file: str) -> str | None:
 
 def look_at_class(text: MissionText, key: tuple[str | int, ...], root: Path, file: str, class_name: str) -> None:
     """Complain of a class that a file with Python does not name; nothing is run, so whatever names it will do."""
+    if file and not (root / file).resolve().is_relative_to(root.resolve()):
+        return  # not of this project: whether it may be used at all is asked elsewhere
     named = ([*OWN], set()) if not file else _names_in(root / file)
     if named is None or class_name in named[0] or class_name in named[1]:
         return

@@ -1,5 +1,6 @@
 """Show how many flights were made to find out why missions fail, on standard error."""
 
+import shutil
 import sys
 import time
 from types import TracebackType
@@ -34,7 +35,9 @@ class SeekingDisplay:
         if now - self._shown < (BAR_SECONDS if self._is_terminal else LINE_SECONDS):
             return
         self._shown, self._is_shown = now, True
-        text = f"seeking causes and conditions: {flights} flights in {now - self._begun:.0f} s{self._most}"
+        text = f"seeking causes and conditions: {flights} flights in {now - self._begun:.0f} s"
+        if len(text + self._most) < shutil.get_terminal_size().columns:
+            text += self._most
         if self._is_terminal:
             click.echo(f"\r\x1b[K{text}", nl=False, err=True)
         else:

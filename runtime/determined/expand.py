@@ -9,7 +9,7 @@ from compiler.program import PredicateCode
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
 from runtime.determined.reading import values
-from runtime.determined.tags import FAR, LEAST, MOST, OF_RULE, ROW, SHOWN, SLOT, WISHED
+from runtime.determined.tags import FAR, FOLLOWER, LEAST, MOST, OF_RULE, ROW, SHOWN, SLOT, WISHED
 from runtime.determined.token_walk import TokenWalk
 from runtime.executive.columns import (
     ORIGINS,
@@ -212,7 +212,7 @@ class _Expansion:
     def _awaited(self, line: int) -> TokenRecord:
         """What was still to follow when the mission ended."""
         code = self.program.model.program.predicates[self.walk.follower[line]]
-        later, lasting = ValueRange(self.tick + 1, inf), ValueRange(1, inf)
+        later = ValueRange(self.tick + 1, inf)
         first = self.program.tables.following[line]
         where = tuple([(first + k, each.type.kind) for k, each in enumerate(code.parameters)])
         return TokenRecord(
@@ -220,7 +220,7 @@ class _Expansion:
             code.name,
             self.program.model.lines[line].name,
             "inactive",
-            lasting,
+            self._lasting(line, first),
             later,
             later,
             values(memoryview(self.machine.registers), where, self.program.name_of),
@@ -230,6 +230,15 @@ class _Expansion:
             self.tick,
             (),
         )
+
+    def _lasting(self, line: int, first: int) -> Value:
+        """How long what was still to follow would have lasted, where the token before it says so."""
+        layout, present = self.program.layout, self.machine.present
+        block = int(present.state[FOLLOWER * self.machine.lines + line])
+        last = layout.widths[line] - 1
+        if not layout.tells_lengths or block < 0 or not self.program.tables.block_mask[block] >> last & 1:
+            return ValueRange(1, inf)
+        return values(memoryview(self.machine.registers), ((first + last, "int"),), self.program.name_of)[0]
 
     # ---- tokens that are alike ----
 

@@ -128,7 +128,7 @@ def test_who_sends_no_goals_to_a_timeline_only_observes_it(place: Path, given: s
 
 def test_reactors_in_python_have_their_settings(place: Path) -> None:
     reactor = '<PythonReactor name="probe" code="probe.py:Probe" level="3" ratio="0.5"><External name="gps"/>'
-    (place / "probe.py").write_text("")
+    (place / "probe.py").write_text("class Probe: ...\n")
     (place / "agent.xml").write_text(AGENT.replace("</Agent>", f"{reactor}</PythonReactor></Agent>"))
     (coded,) = agent_in(place / "agent.xml").coded
     assert (coded.file, coded.class_name, coded.external) == ("probe.py", "Probe", ("gps",))
