@@ -63,10 +63,14 @@ def culprit_of(conflict: Conflict | None) -> Culprit:
 
 
 def own_elements(conflict: Conflict) -> list[ConflictElement]:
-    """The elements of the reactor that a conflict arose in, without those of reactors that it was told on through."""
+    """The elements of the reactor that a conflict arose in, and of those whose tokens it observed.
+
+    What is left out are lines of reactors that only asked for something.
+    """
     reactors = [next((one.reactor for one in element.variables), "") for element in conflict.elements]
-    own = next((one for one in reversed(reactors) if one), "")
-    return [element for element, one in zip(conflict.elements, reactors, strict=True) if one in ("", own)]
+    own = {"", next((one for one in reversed(reactors) if one), "")}
+    own |= {one.reactor for each in conflict.elements if each.kind is ElementKind.SHARED_END for one in each.variables}
+    return [element for element, one in zip(conflict.elements, reactors, strict=True) if one in own]
 
 
 def in_telling_order(conflict: Conflict, last: int) -> list[int]:

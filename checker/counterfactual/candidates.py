@@ -15,7 +15,7 @@ from pathlib import Path
 from checker.causes import Failed, dead_ends, failed_by, in_common, refusals
 from checker.counterfactual.deadlocks import lines_at_odds
 from checker.counterfactual.dependence import Dependence
-from checker.culprit import culprit_of
+from checker.culprit import culprit_of, own_elements
 from checker.mutation.edits import EditSite
 from checker.proofs.places import ModelText
 from compiler.program import TOKEN_TIMES
@@ -27,6 +27,7 @@ from runtime.executive.outcome import Abort, Conflict, Deadlock, ElementKind, Ev
 from runtime.solver.tags import RESOURCE_THREAT
 
 _CULPRIT, _CONFLICT, _LOG, _OBSERVED, _COVERED, _EVENT, _AWAITED, _NAMED = 0.0, 0.25, 0.5, 0.5, 0.75, 1.0, 1.0, 1.5
+_ASKER = 1.0  # of a line by which another reactor only asked for something
 _UNSAID = 3.0  # of what bears on a token, where a property says what its arguments are
 _STEP = 0.3  # of a line behind another one, by a local variable of a rule whose token was observed
 _PASSED = 0.4  # length of the way through a line that only passes a value on
@@ -195,7 +196,8 @@ def _over(outcome: Outcome) -> set[str]:
 
 def _told(conflict: Conflict | None, graph: Dependence, root: Path) -> set[int]:
     """The sites of the lines that a conflict names."""
-    places = [one.place for one in (conflict.elements if conflict is not None else ()) if one.place is not None]
+    elements = own_elements(conflict) if conflict is not None else []
+    places = [one.place for one in elements if one.place is not None]
     return {number for place in places for number in graph.at(str(real_path(root / place.file)), place.line)}
 
 
@@ -203,7 +205,7 @@ def _observed(conflict: Conflict | None) -> set[tuple[str, str]]:
     """Predicates, each with a parameter or time that a conflict has from observation: a line of the owner set it."""
     return {
         (variable.token.predicate, variable.name)
-        for element in (conflict.elements if conflict is not None else ())
+        for element in (own_elements(conflict) if conflict is not None else ())
         if element.kind is ElementKind.OBSERVATION
         for variable in element.variables
         if variable.token is not None
@@ -226,7 +228,8 @@ def _tokens_in(outcome: Outcome, failed: Failed, first: Event | None) -> set[str
     ends: tuple[Failed | Event | Abort | None, ...] = (failed, first, outcome.abort)
     conflicts = [one.conflict for one in ends if one is not None and one.conflict is not None]
     conflicts += [each for one in ends if one is not None and one.deadlock for each in one.deadlock.conflicts()]
-    variables = (variable for conflict in conflicts for variable in conflict.variables)
+    elements = (element for conflict in conflicts for element in own_elements(conflict))
+    variables = (variable for element in elements for variable in element.variables)
     return {variable.token.predicate for variable in variables if variable.token is not None}
 
 
@@ -237,8 +240,9 @@ def _named(
 
     Of the repairs, refusals and rejections the `first` with a known cause counts most: what comes later may follow.
     """
+    own = set(own_elements(conflict)) if conflict is not None else set()
     for element in conflict.elements if conflict is not None else ():
-        yield element.place, _CONFLICT, Suspicion.CONFLICT
+        yield element.place, _CONFLICT if element in own else _ASKER, Suspicion.CONFLICT
     refused = [one for one in refusals(outcome) if one.conflict is not None or one.deadlock is not None]
     for one in refused:
         yield from _places(one.conflict, _CONFLICT, Suspicion.CONFLICT)
@@ -264,7 +268,7 @@ def _logged(deadlock: Deadlock | None, far: float = _LOG) -> Iterator[tuple[Sour
 def _places(
     conflict: Conflict | None, far: float, source: Suspicion
 ) -> Iterator[tuple[SourcePlace | None, float, Suspicion]]:
-    for element in conflict.elements if conflict is not None else ():
+    for element in own_elements(conflict) if conflict is not None else ():
         yield element.place, far, source
 
 
