@@ -15,6 +15,8 @@ from checker.counterfactual.trials import TrialsEnd
 from checker.faults import Sought
 from checker.findings import Ending, Findings
 
+_WHOLE = (TrialsEnd.COMPLETE, TrialsEnd.FLIGHTS)  # more time would show no more
+
 
 def seal_of(results: Sequence[MissionResult], flights: int, confidence: float, *, tests_conditions: bool) -> str:
     """The SHA-256 of all that findings depend on beside the run itself."""
@@ -27,7 +29,7 @@ def write_sought(findings: Findings) -> str | None:
     """What was found, as a line of JSON; None where a signal or the clock ended the search, or the run."""
     if findings.ending is Ending.SIGNAL or findings.is_cut:
         return None
-    if any(fault.causes.ended is TrialsEnd.SECONDS for fault in findings.faults):
+    if any(fault.causes.ended not in _WHOLE for fault in findings.faults):
         return None
     return json.dumps(
         [
