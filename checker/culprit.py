@@ -62,11 +62,13 @@ def culprit_of(conflict: Conflict | None) -> Culprit:
     return Culprit(chosen, elements[chosen], tuple(place for place in dict.fromkeys(limits) if place is not None))
 
 
-def own_elements(conflict: Conflict) -> list[ConflictElement]:
+def own_elements(conflict: Conflict | None) -> list[ConflictElement]:
     """The elements of the reactor that a conflict arose in, and of those whose tokens it observed.
 
     What is left out are lines of reactors that only asked for something.
     """
+    if conflict is None:
+        return []
     reactors = [next((one.reactor for one in element.variables), "") for element in conflict.elements]
     own = {"", next((one for one in reversed(reactors) if one), "")}
     own |= {one.reactor for each in conflict.elements if each.kind is ElementKind.SHARED_END for one in each.variables}

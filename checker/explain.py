@@ -16,6 +16,7 @@ from checker.names import mission_name
 from checker.oracle import CODE_NAMES
 from checker.proofs.conflict import Confirmation
 from checker.rendering import cause_number, confirmation_text, failure_text, kind_text, step_label, step_text
+from checker.report.sentences import counted
 from checker.sampling.rendering import number
 from checker.story import Step, StepKind, Story
 from runtime.executive.outcome import SourcePlace
@@ -134,17 +135,13 @@ def result_text(result: MissionResult, run_id: str) -> str:
         reason = f"could not be flown: {failure_text(result.judgement)}"
         return f"{mission_name(result.number)} of run {run_id} (seed {result.seed}) {reason}\n{result.detail}\n"
     losses = result.losses
-    ends = "nothing to explain" if not losses.repairs else f"after {_times(losses.repaired, 'repair')} of plans"
+    ends = "nothing to explain" if not losses.repairs else f"after {counted(losses.repaired, 'repair')} of plans"
     lines = [f"{mission_name(result.number)} of run {run_id} passed: it reached tick {outcome.last_tick}; {ends}"]
     lines += [f"  repaired: {_repair_text(each)}" for each in losses.repairs]
     if losses.repairs:
         lines.append("  a repair may set aside what a rule says; `max_repairs = 0` under [check] makes it a failure")
     lines += [f"  {draw.parameter} = {number(draw.value)} from tick {draw.tick} on" for draw in outcome.draws]
     return "\n".join(lines) + "\n"
-
-
-def _times(count: int, what: str) -> str:
-    return f"{count} {what}{'' if count == 1 else 's'}"
 
 
 def _repair_text(repair: Repairs) -> str:

@@ -9,10 +9,9 @@ from typing import Any
 
 from checker.batch.identity import model_digest
 from checker.flight import fly_programs
-from checker.losses import losses_of
 from checker.mission import Mission
 from checker.models import ModelSet
-from checker.oracle import Judgement, judge, judge_losses
+from checker.oracle import Judgement, judge_within
 from checker.pinned import pinned
 from nddl_lang.text.read import real_path
 from nddl_lang.text.values import json_value
@@ -55,7 +54,7 @@ def fly(mission: Mission, models: ModelSet, settings: FlightSettings, clock: Fas
     )
     if clock is not None:
         settings = replace(settings, steps=tuple(sorted(clock.counts.items())))
-    judged = judge_losses(judge(outcome), losses_of(outcome), mission.check.limits)
+    judged = judge_within(outcome, mission.check.limits)
     return Flight(settings, model_digest(models.texts), outcome, judged)
 
 

@@ -7,7 +7,7 @@ stay open are class F10 of the failure taxonomy (reference of T-REX, 1.10 and 1.
 from dataclasses import dataclass
 from enum import Enum
 
-from checker.losses import Exceeded, Limit, Losses, exceeded
+from checker.losses import Exceeded, Limit, Limits, Losses, exceeded, losses_of
 from runtime.executive.events import single_events
 from runtime.executive.outcome import EventKind, Outcome, PropertyFate, Reason, ReasonKind
 
@@ -82,7 +82,12 @@ def judge(outcome: Outcome) -> Judgement:
     return Judgement(Verdict.PASS)
 
 
-def judge_losses(judgement: Judgement, losses: Losses, limits: tuple[tuple[Limit, int], ...]) -> Judgement:
+def judge_within(outcome: Outcome, limits: Limits) -> Judgement:
+    """The judgement of an outcome with the limits of [check] applied."""
+    return judge_losses(judge(outcome), losses_of(outcome), limits)
+
+
+def judge_losses(judgement: Judgement, losses: Losses, limits: Limits) -> Judgement:
     """The judgement with the limits of [check] applied: a mission that passed fails where it lost more."""
     over = exceeded(losses, limits) if judgement.verdict is Verdict.PASS else None
     return judgement if over is None else Judgement(Verdict.FAIL, _LIMIT_CODES[over.limit], exceeded=over)

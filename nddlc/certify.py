@@ -7,11 +7,10 @@ import click
 
 from checker.excerpts import Excerpts
 from checker.flight import fly_recorded
-from checker.losses import losses_of
 from checker.mission import LARGEST_SEED, Mission
 from checker.models import ModelSet, load_models
 from checker.mutation.variant import open_over
-from checker.oracle import Verdict, judge, judge_losses
+from checker.oracle import Verdict, judge_within
 from checker.pinned import pinned
 from checker.proofs.box import Point
 from checker.proofs.certify import Certainty, Certificate, Certifier
@@ -81,8 +80,7 @@ def certifier_of(mission: Mission, models: ModelSet, seed: int) -> Certifier:
 
     def fly(point: Point) -> tuple[Outcome, MissionRecord, bool]:
         outcome, record = fly_recorded(agent, flown, seed, point)
-        judgement = judge_losses(judge(outcome), losses_of(outcome), limits)
-        return outcome, record, judgement.verdict is Verdict.PASS
+        return outcome, record, judge_within(outcome, limits).verdict is Verdict.PASS
 
     return Certifier(agent, flown.programs, fly, limits=limits)
 

@@ -7,6 +7,7 @@ import click
 from checker.mission import Mission, read_mission
 from checker.models import ModelSet
 from checker.names import relative_name
+from checker.report.sentences import counted
 from checker.sampling.rendering import describe
 from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.text.diagnostic import Diagnostic, Severity
@@ -55,8 +56,7 @@ def warnings_page(models: ModelSet) -> str:
     if not findings:
         return ""
     root = Path(models.agent.root)
-    count = f"{len(findings)} warning{'' if len(findings) == 1 else 's'}"
-    lines = [f"{count} about these models (`nddlc lint` shows them in full):"]
+    lines = [f"{counted(len(findings), 'warning')} about these models (`nddlc lint` shows them in full):"]
     for one in findings[:_MOST_WARNINGS]:
         line, column = one.span.source.locate(one.span.begin)
         name = relative_name(one.span.source.name, root)

@@ -196,8 +196,7 @@ def _over(outcome: Outcome) -> set[str]:
 
 def _told(conflict: Conflict | None, graph: Dependence, root: Path) -> set[int]:
     """The sites of the lines that a conflict names."""
-    elements = own_elements(conflict) if conflict is not None else []
-    places = [one.place for one in elements if one.place is not None]
+    places = [one.place for one in own_elements(conflict) if one.place is not None]
     return {number for place in places for number in graph.at(str(real_path(root / place.file)), place.line)}
 
 
@@ -205,7 +204,7 @@ def _observed(conflict: Conflict | None) -> set[tuple[str, str]]:
     """Predicates, each with a parameter or time that a conflict has from observation: a line of the owner set it."""
     return {
         (variable.token.predicate, variable.name)
-        for element in (own_elements(conflict) if conflict is not None else ())
+        for element in own_elements(conflict)
         if element.kind is ElementKind.OBSERVATION
         for variable in element.variables
         if variable.token is not None
@@ -240,7 +239,7 @@ def _named(
 
     Of the repairs, refusals and rejections the `first` with a known cause counts most: what comes later may follow.
     """
-    own = set(own_elements(conflict)) if conflict is not None else set()
+    own = set(own_elements(conflict))
     for element in conflict.elements if conflict is not None else ():
         yield element.place, _CONFLICT if element in own else _ASKER, Suspicion.CONFLICT
     refused = [one for one in refusals(outcome) if one.conflict is not None or one.deadlock is not None]
@@ -268,7 +267,7 @@ def _logged(deadlock: Deadlock | None, far: float = _LOG) -> Iterator[tuple[Sour
 def _places(
     conflict: Conflict | None, far: float, source: Suspicion
 ) -> Iterator[tuple[SourcePlace | None, float, Suspicion]]:
-    for element in own_elements(conflict) if conflict is not None else ():
+    for element in own_elements(conflict):
         yield element.place, far, source
 
 

@@ -15,6 +15,7 @@ from pathlib import Path
 import z3
 
 from checker.losses import Limits, losses_of
+from checker.names import relative_name
 from checker.proofs.box import Box, Point, box_of
 from checker.proofs.claims import Claim, Number
 from checker.proofs.dating import Dated, Requirement, dated
@@ -136,16 +137,23 @@ class Certifier:
         """Every condition holds; is that all that is asked?"""
         for structure in self.structures:
             for name, span in structure.silent.items():
-                return self._unknown(f"z3 cannot be told what `{name}` means{_at(span)}")
+                return self._unknown(f"z3 cannot be told what `{name}` means{self._at(span)}")
             for _, span in structure.lost.items():
                 what = f"`{' '.join(span.text.split())}`" if span is not None else "a line"
                 why = "is about a token that a flight has no times of, as where a repair cut it off"
-                return self._unknown(f"{what}{_at(span)} {why}; nothing is proved of it")
+                return self._unknown(f"{what}{self._at(span)} {why}; nothing is proved of it")
         unproved = tuple(each.name for each in self.agent.properties)
         if unproved and not rules_only:
             why = "the rules hold, but the mission file's properties are not part of the proof"
             return self._unknown(f"{why} (`--rules-only` leaves them out)")
         return self._answer(Certainty.CERTIFIED, why=_UNSEEN if has_gaps else "", unproved=unproved)
+
+    def _at(self, span: Span | None) -> str:
+        """Where a line stands, in brackets."""
+        if span is None:
+            return ""
+        name = relative_name(span.source.name, Path(self.agent.root))
+        return f" ({name}:{span.source.locate(span.begin)[0]})"
 
     def find_structure(self) -> bool:
         """Fly the middle of the box, else points drawn evenly, until a mission passes; whether there is a structure."""
@@ -372,13 +380,6 @@ class Certifier:
             self.limits,
             self.repaired,
         )
-
-
-def _at(span: Span | None) -> str:
-    """Where a line stands, in brackets."""
-    if span is None:
-        return ""
-    return f" ({Path(span.source.name).name}:{span.source.locate(span.begin)[0]})"
 
 
 def _same(one: Dated, other: Dated) -> bool:

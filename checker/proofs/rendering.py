@@ -5,9 +5,8 @@ from typing import Any
 
 from checker.excerpts import Excerpts
 from checker.explain import excerpt_lines, place_data
-from checker.losses import losses_of
 from checker.names import relative_name
-from checker.oracle import Judgement, judge, judge_losses
+from checker.oracle import judge_within
 from checker.proofs.box import Box, Point
 from checker.proofs.certify import Certainty, Certificate
 from checker.proofs.constants import SafeConstant
@@ -16,7 +15,7 @@ from checker.proofs.uncertain import PlanNetwork, VehicleDuration
 from checker.rendering import failure_text
 from checker.sampling.rendering import number
 from nddl_lang.text.source import Span
-from runtime.executive.outcome import Outcome, SourcePlace
+from runtime.executive.outcome import SourcePlace
 
 
 def certificate_lines(name: str, found: Certificate, box: Box, excerpts: Excerpts) -> list[str]:
@@ -34,7 +33,7 @@ def certificate_lines(name: str, found: Certificate, box: Box, excerpts: Excerpt
             lines = [f"{name}: unknown: {found.why}"]
     lines.append(f"  box: {sides}")
     if found.certainty is Certainty.REFUTED and found.outcome is not None:
-        judgement = _judged(found, found.outcome)
+        judgement = judge_within(found.outcome, found.limits)
         lines.append(f"  {judgement.code} at tick {found.outcome.last_tick}: {_failure(found)}")
         for span in found.lines:
             lines += excerpt_lines(place_of(span, excerpts.root), excerpts, indent="  ")
@@ -45,11 +44,7 @@ def certificate_lines(name: str, found: Certificate, box: Box, excerpts: Excerpt
 
 def _failure(found: Certificate) -> str:
     assert found.outcome is not None
-    return failure_text(_judged(found, found.outcome), found.outcome.open_goals)
-
-
-def _judged(found: Certificate, outcome: Outcome) -> Judgement:
-    return judge_losses(judge(outcome), losses_of(outcome), found.limits)
+    return failure_text(judge_within(found.outcome, found.limits), found.outcome.open_goals)
 
 
 def _subset_lines(found: Certificate) -> list[str]:
@@ -108,7 +103,7 @@ def certificate_data(found: Certificate, box: Box, excerpts: Excerpts) -> dict[s
         "why": found.why,
         "box": {name: [side.lower, side.upper] for name, side in box.sides.items()},
         "point": found.point,
-        "code": _judged(found, found.outcome).code if found.outcome is not None else None,
+        "code": judge_within(found.outcome, found.limits).code if found.outcome is not None else None,
         "lines": [place_data(place_of(span, excerpts.root), excerpts) for span in found.lines],
         "subset": list(found.subset),
         "subset_is_smallest": found.is_smallest,

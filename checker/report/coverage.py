@@ -3,6 +3,7 @@
 from typing import Any
 
 from checker.coverage import Coverage, SiteCoverage
+from checker.report.sentences import counted
 
 _MOST = 40
 
@@ -11,7 +12,7 @@ def coverage_text(coverage: Coverage) -> str:
     """What no mission exercised, with its lines."""
     rules = [one for one in coverage.sites if not one.branch]
     branches = [one for one in coverage.sites if one.branch]
-    flown = f"{coverage.missions} mission{'' if coverage.missions == 1 else 's'}"
+    flown = counted(coverage.missions, "mission")
     lines = [f"coverage of {flown}: {_share(rules)} rules fired, {_share(branches)} branches taken"]
     for one in coverage.missed[:_MOST]:
         where = f"{one.place.file}:{one.place.line}"

@@ -97,9 +97,8 @@ class Draws:
         self.begins: dict[int, int] = {}  # when those begin that are drawn for anew: meanwhile they have no place
         self.is_put_off = False  # nothing is drawn for what has not begun: it keeps the range of the parameter
         self.asks_nobody = False  # so it is always put off, unless what is drawn has to be told to an owner in time
-        self.undrawn: dict[
-            int, int
-        ] = {}  # the keys, by token, of what waits for its draw: nothing else is decided of it
+        # The keys, by token, of what waits for its draw: nothing else is decided of it.
+        self.undrawn: dict[int, int] = {}
 
     def draw(self, name: str, token: int) -> float | None:
         """What the plan database asks: the value of a parameter for a token (NOTHING: for the script)."""
