@@ -185,7 +185,7 @@ kills: build
 	NDDLC_KILLS=$(KILLS) $(BIN)/python -m pytest -q -rP tests/checker/test_interrupt.py -k killed
 
 cases: build
-	NDDLC_CASES=all $(PYTEST) tests/executive/test_cases.py
+	NDDLC_CASES=all $(PYTEST) tests/executive/test_cases.py tests/executive/test_variations.py
 
 variants: build
 	NDDLC_VARIANTS=1 $(BIN)/python -m pytest -q tests/models/test_variants_explained.py tests/checker/test_yardstick.py
