@@ -74,8 +74,13 @@ def _persist(bench: Workbench, timelines: list[TimelineState], tick: int, asked:
                 return SyncFailure(code, (line.name,), what, conflict_of(bench))
         elif not bench.end_observed(line.current, tick):
             what = Reason(ReasonKind.ENDED, bench.name_of(line.current), tick=tick)
-            return SyncFailure("F2", (line.name,), what, conflict_of(bench))
+            return SyncFailure(_code_of_news(line), (line.name,), what, conflict_of(bench))
     return None
+
+
+def _code_of_news(line: TimelineState) -> str:
+    """The failure where news do not fit: F8 if they say that the owner died, else F2."""
+    return "F8" if line.news is not None and line.news.predicate == "Failed" else "F2"
 
 
 class _Search:
@@ -375,7 +380,7 @@ class _Search:
             tried.setdefault(choice, FailedChoice(PresentChoice(_KINDS[kind], named, called), conflict))
         if self.first is not None:
             return
-        code = "F3" if line.is_internal else "F8" if line.news and line.news.predicate == "Failed" else "F2"
+        code = "F3" if line.is_internal else _code_of_news(line)
         if kind == _EXTEND:
             what = Reason(ReasonKind.CANNOT_GO_ON, self.bench.name_of(token), tick=self.tick)
         elif kind in (_NEXT, _MEET):

@@ -24,7 +24,7 @@ from runtime.executive.mission import MissionPrograms, record_mission
 from runtime.executive.outcome import Outcome
 from runtime.executive.record import MissionRecord
 from runtime.executive.rendering import event_text, goal_text
-from runtime.solver.configuration.configuration import default_configuration
+from runtime.solver.configuration.configuration import Configuration, default_configuration
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,8 +96,9 @@ def flown(
     every_tick: bool = False,
     compiles: bool = True,
     stop: int | None = None,
+    solver: Configuration | None = None,
 ) -> Flown:
-    """Fly one mission and judge it; `stop` ends the flight before the final tick."""
+    """Fly one mission and judge it; `stop` ends the flight before the final tick, `solver` is that of all reactors."""
     agent = AgentConfiguration(
         "toy",
         ".",
@@ -108,7 +109,7 @@ def flown(
         on_failure=on_failure,
     )
     programs = tuple(program(flyer.configuration.model, flyer.text) for flyer in flyers)
-    solvers = tuple(default_configuration() for _ in flyers)
+    solvers = tuple(solver or default_configuration() for _ in flyers)
     outcome, record = record_mission(
         agent, MissionPrograms(programs, solvers), seed, overrides, every_tick, stop, compiles
     )

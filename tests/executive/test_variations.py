@@ -13,7 +13,6 @@ from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, run_mission
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import event_data
-from runtime.solver.configuration.configuration import default_configuration
 from tests.executive.determined_models import told
 from tests.executive.flying import Flown, flown
 from tests.executive.variations.form import Data, Variation, read_variations
@@ -34,7 +33,7 @@ def test_what_the_rules_say_comes_of_a_variation(one: Variation) -> None:
 @pytest.mark.parametrize("one", VARIATIONS[::FEWER], ids=lambda one: one.name)
 def test_no_way_of_flying_changes_a_variation(one: Variation) -> None:
     mission = flown_of(one)
-    programs = MissionPrograms(mission.programs, tuple(default_configuration() for _ in mission.programs))
+    programs = MissionPrograms(mission.programs, tuple(one.solver for _ in mission.programs))
     general, each = (fly(mission.agent, programs, **way) for way in ({"compiles": False}, {"every_tick": True}))
     assert told(general) == told(mission.outcome)
     assert [brief(event) for event in lines(each)] == [brief(event) for event in lines(mission.outcome)]
@@ -53,6 +52,7 @@ def flown_of(one: Variation) -> Flown:
         goals=tuple(one.goals),
         parameters=tuple(one.parameters),
         on_failure=one.on_failure,
+        solver=one.solver,
     )
 
 
@@ -130,7 +130,11 @@ def fits(pattern: Data, event: Data) -> bool:
     """Whether an event is as a pattern has it."""
     arguments, wanted = event.get("arguments") or {}, pattern.get("arguments", {})
     return (
-        all(event.get(key) == pattern[key] for key in ("kind", "reactor", "timeline", "predicate") if key in pattern)
+        all(
+            event.get(key) == pattern[key]
+            for key in ("kind", "reactor", "timeline", "predicate", "code")
+            if key in pattern
+        )
         and at(pattern.get("tick", event["tick"]), event["tick"])
         and all(name in arguments and same(value, arguments[name]) for name, value in wanted.items())
     )

@@ -5,10 +5,12 @@
     | until 30, kill                             the final tick; `kill`: a reactor that fails is killed
     | plan 1/60 task > arm ~src                  latency/look-ahead, own timelines > those used, ~ those only observed
       Task::Do { equals(Arm.Act a); }            its model; classes, timelines and `close()` are written by themselves
+    | resources                                  solvers order what uses resources
     | goal task.Do(n=1) start 5..9 mandatory     also end, duration, at, recall
     = PASS @30                                   verdict, code, last tick
     = task: 0 Idle, 5..6 Do(1), 10 Idle ?        all that is observed there; `?`: may be missing
     = request arm.Act @4..5                      events, in this order; those of `= any` in whatever order
+    = kill by plan(F8)                           with its code
     = 1 x request arm.Act                        how many there are
 
 `| like NAME` takes over what another one has: its models, and what is not said anew.
@@ -21,6 +23,12 @@ from pathlib import Path
 from typing import Any
 
 from runtime.executive.configuration import Bounds, GoalConfiguration, OnFailure, ParameterConfiguration
+from runtime.solver.configuration.configuration import (
+    Configuration,
+    FlawHandler,
+    FlawManager,
+    default_configuration,
+)
 from tests.executive.flying import Flyer, planner
 
 CLASSES = {
@@ -35,6 +43,13 @@ CLASSES = {
     "Copy": ("Of", {"Of": "int k;"}),
     "Wave": ("Step", {"Step": "float v;"}),
 }
+RESOURCES = replace(
+    default_configuration(),
+    managers=(
+        FlawManager("ResourceThreatManager", (), (FlawHandler("ResourceThreatHandler", priority=0.0),)),
+        *default_configuration().managers,
+    ),
+)
 MODES = {"": "Internal", ">": "External", "~": "Observe", "-": "Private", "!": "Ignore"}
 EVENT = re.compile(r"(\w+)(?: by (\w+))?(?: (\w+)(?:\.(\w+))?)?(?:\((.*?)\))?(?: @(\S+))?$")
 Data = dict[str, Any]
@@ -49,6 +64,7 @@ class Variation:
     until: int = 40
     on_failure: OnFailure = "abort_agent"
     flyers: dict[str, Flyer] = field(default_factory=dict)
+    solver: Configuration = field(default_factory=default_configuration)  # of all reactors
     models: dict[str, str] = field(default_factory=dict)  # as they stand in the file
     goals: list[GoalConfiguration] = field(default_factory=list)
     parameters: list[ParameterConfiguration] = field(default_factory=list)
@@ -85,6 +101,8 @@ def read(lines: list[str], others: dict[str, Variation]) -> Variation:
         elif line.startswith("| until "):
             ticks, *rest = said.replace(",", " ").split()[1:]
             one.until, one.on_failure = int(ticks), "kill_reactor" if "kill" in rest else "abort_agent"
+        elif line.startswith("| resources"):
+            one.solver = RESOURCES
         elif line.startswith("| goal "):
             goals.append(goal_of(said[5:]))
         elif line.startswith("| draw "):
@@ -219,7 +237,9 @@ def pattern_of(said: str) -> Data:
     assert match, said
     kind, reactor, timeline, predicate, arguments, tick = match.groups()
     found: Data = {"kind": kind, "reactor": reactor, "timeline": timeline, "predicate": predicate}
-    if arguments:
+    if arguments and "=" not in arguments:
+        found["code"] = arguments
+    elif arguments:
         pairs = [each.split("=") for each in arguments.split(",")]
         found["arguments"] = {name: value_of(value) for name, value in pairs}
     found["tick"] = None if tick is None else ticks_of(tick)
