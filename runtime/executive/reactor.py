@@ -47,6 +47,11 @@ class SyncFailure:
     deadlock: Deadlock | None = None
 
 
+def code_of_news(news: Observation | None) -> str:
+    """The failure where news do not fit: F8 if they say that the owner died, else F2."""
+    return "F8" if news is not None and news.predicate == "Failed" else "F2"
+
+
 @dataclass(frozen=True, slots=True)
 class Refusal:
     """The owner will not do what it was asked for; `event` is where the trace says why."""

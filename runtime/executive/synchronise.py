@@ -10,7 +10,7 @@ from runtime.executive.dispatch import Dispatch
 from runtime.executive.messages import Observation
 from runtime.executive.outcome import ChoiceKind, Deadlock, FailedChoice, PresentChoice, Reason, ReasonKind
 from runtime.executive.planning import EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, Planner
-from runtime.executive.reactor import SyncFailure
+from runtime.executive.reactor import SyncFailure, code_of_news
 from runtime.executive.story import conflict_of
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_OBSERVATION
@@ -74,13 +74,8 @@ def _persist(bench: Workbench, timelines: list[TimelineState], tick: int, asked:
                 return SyncFailure(code, (line.name,), what, conflict_of(bench))
         elif not bench.end_observed(line.current, tick):
             what = Reason(ReasonKind.ENDED, bench.name_of(line.current), tick=tick)
-            return SyncFailure(_code_of_news(line), (line.name,), what, conflict_of(bench))
+            return SyncFailure(code_of_news(line.news), (line.name,), what, conflict_of(bench))
     return None
-
-
-def _code_of_news(line: TimelineState) -> str:
-    """The failure where news do not fit: F8 if they say that the owner died, else F2."""
-    return "F8" if line.news is not None and line.news.predicate == "Failed" else "F2"
 
 
 class _Search:
@@ -380,7 +375,7 @@ class _Search:
             tried.setdefault(choice, FailedChoice(PresentChoice(_KINDS[kind], named, called), conflict))
         if self.first is not None:
             return
-        code = "F3" if line.is_internal else _code_of_news(line)
+        code = "F3" if line.is_internal else code_of_news(line.news)
         if kind == _EXTEND:
             what = Reason(ReasonKind.CANNOT_GO_ON, self.bench.name_of(token), tick=self.tick)
         elif kind in (_NEXT, _MEET):
