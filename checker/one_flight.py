@@ -46,7 +46,10 @@ class Flight:
 
 
 def fly(mission: Mission, models: ModelSet, settings: FlightSettings, clock: FastClock | None = None) -> Flight:
-    """Fly the mission once, by a clock, by the steps that another one counted, or by that of the mission file."""
+    """Fly the mission once, by a clock, by the steps that another one counted, or by that of the mission file.
+
+    Where a sampler placed parameters, their values are part of the settings then.
+    """
     programs = pinned(models).programs_of(models.agent)
     logged = None if settings.steps is None else LogClock(dict(settings.steps))
     outcome = fly_programs(
@@ -54,6 +57,9 @@ def fly(mission: Mission, models: ModelSet, settings: FlightSettings, clock: Fas
     )
     if clock is not None:
         settings = replace(settings, steps=tuple(sorted(clock.counts.items())))
+    placed = {one.name for one in models.agent.parameters if one.share is not None}
+    drawn = {one.parameter: one.value for one in outcome.draws if one.parameter in placed}
+    settings = replace(settings, values=drawn | dict(settings.values))
     judged = judge_within(outcome, mission.check.limits)
     return Flight(settings, model_digest(models.texts), outcome, judged)
 

@@ -8,7 +8,7 @@ from checker.batch.connection import LATEST, StoreError
 from checker.batch.explanations import kept_page
 from checker.counterfactual.effort import MOST_FLIGHTS, MOST_SECONDS, Bounds
 from nddlc.fitting import say
-from nddlc.inputs import STORE, Unusable, present
+from nddlc.inputs import STORE, Unusable, mission_of_run, present
 from nddlc.main import named
 from nddlc.trust import trust_option
 
@@ -44,10 +44,7 @@ def command(
     as they are.
     """
     present(mission_path)
-    name, _, number = (what, "", "") if mission_path is not None else what.partition("#")
-    if number and not number.removeprefix("k").isdigit():
-        raise Unusable(f"`{number}` is no number of a mission", "write RUN#MISSION, such as latest#37")
-    mission = _number(number) if number else None
+    name, mission = (what, None) if mission_path is not None else mission_of_run(what)
     try:
         if mission_path is None and style == "text" and not verbose and not events:
             page = kept_page(store_path, name or LATEST, mission, flights)
@@ -68,8 +65,3 @@ def command(
         return explained
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
-
-
-def _number(text: str) -> int:
-    """`12` as it stands; `k3`, the third of the kept failures, as -3."""
-    return -int(text[1:]) if text.startswith("k") else int(text)

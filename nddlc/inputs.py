@@ -1,6 +1,7 @@
 """What subcommands that read models share: their options, files checked before any work, and when to colour."""
 
 import os
+import re
 import stat
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,6 +25,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 STORE = Path(".nddlc/runs.sqlite")  # where runs are kept unless another place is named
 
+_NUMBER = re.compile(r"k?[0-9]+")
 _MISSION = "`nddlc lint` looks at missions and configurations"
 _NO_MODELS = {
     ".toml": _MISSION,
@@ -47,6 +49,16 @@ class Unusable(click.ClickException):
         click.echo(fitted(f"nddlc: {self.message}", columns()), err=True)
         if self.advice is not None:
             click.echo(fitted(f"  help: {self.advice}", columns()), err=True)
+
+
+def mission_of_run(what: str) -> tuple[str, int | None]:
+    """The name of a run and the number of a mission that `RUN#MISSION` names; `k3`, the third kept failure, is -3."""
+    name, _, number = what.partition("#")
+    if number and _NUMBER.fullmatch(number) is None:
+        raise Unusable(f"`{number}` is no number of a mission", "write RUN#MISSION, such as latest#37")
+    if not number:
+        return name, None
+    return name, -int(number[1:]) if number.startswith("k") else int(number)
 
 
 def model_files(command: Function) -> Function:

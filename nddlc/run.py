@@ -21,7 +21,8 @@ from checker.oracle import Verdict
 from checker.real_time import RealTimeClock
 from checker.rendering import failure_text
 from nddlc.fitting import columns, say
-from nddlc.inputs import mission_here, write_text
+from nddlc.inputs import STORE, mission_here, write_text
+from nddlc.main import named
 from nddlc.one_mission import prepare, values_of
 from nddlc.trust import trust_option
 from runtime.executive.clocks import clock_of
@@ -39,13 +40,14 @@ _MOST_REASONS = 3  # of goals that stayed open, each with its lines
 
 
 @click.command()
-@click.argument("path", metavar="[MISSION]", required=False)
+@click.argument("path", metavar="[MISSION|RUN#N]", required=False)
 @click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="The seed of the mission, else that of the file.")
 @click.option("--param", "given", multiple=True, metavar="NAME=VALUE", help="Give a parameter a value; repeatable.")
 @click.option("--until", type=click.IntRange(0), help="Stop at this tick.")
 @click.option("--trace", type=_FILE, help="Write the trace here, as JSON Lines.")
 @click.option("--real-time", "is_timed", is_flag=True, help="Let each tick take its time; what takes longer is late.")
 @click.option("--clock", "log", type=_FILE, help="Write the steps of planners in each tick here, for `log` of a clock.")
+@click.option("--store", "store_path", type=click.Path(path_type=Path), default=STORE, help="Where runs are kept.")
 @trust_option
 def command(
     path: str | None,
@@ -55,16 +57,21 @@ def command(
     trace: Path | None,
     log: Path | None,
     is_timed: bool,
+    store_path: Path,
     is_trusted: bool,
 ) -> int:
     """Fly one mission and show what happened.
 
-    MISSION is a mission file (.toml), by default the one here, or an agent file of T-REX (.xml). It is flown as fast as
-    it can be, unless `--real-time` is given. Ends with 0 if the mission passes, with 1 if it fails, with 2 if it cannot
-    be flown.
+    MISSION is a mission file (.toml), by default the one here, or an agent file of T-REX (.xml); RUN#N is mission N of
+    a run of `nddlc check`, such as `latest#37`. It is flown as fast as it can be, unless `--real-time` is given.
+    Ends with 0 if the mission passes, with 1 if it fails, with 2 if it cannot be flown.
     """
-    file, mission, models = prepare(mission_here(path), is_trusted=is_trusted, is_linted=True)
-    settings = FlightSettings(mission.check.seed if seed is None else seed, values_of(given, models), until)
+    if path is not None and "#" in path and not Path(path).exists():
+        file, mission, models, own_seed = named("nddlc.stored:stored_flight")(path, store_path, is_trusted)
+    else:
+        file, mission, models = prepare(mission_here(path), is_trusted=is_trusted, is_linted=True)
+        own_seed = mission.check.seed
+    settings = FlightSettings(own_seed if seed is None else seed, values_of(given, models), until)
     agent = models.agent
     clock = clock_of(agent.clock)
     if is_timed:

@@ -9,13 +9,14 @@ import click
 from checker.batch.connection import LATEST, StoreError
 from checker.batch.store import read_store
 from checker.buckets import group_failures
+from checker.names import mission_name
 from checker.oracle import Verdict
 from checker.rendering import failure_text
 from checker.sampling.rendering import number
 from checker.shrink import Shrunk
 from nddl_lang.text.values import json_text
 from nddlc.explanation import campaign_of
-from nddlc.inputs import STORE, Unusable
+from nddlc.inputs import STORE, Unusable, mission_of_run
 from nddlc.trust import trust_option
 
 
@@ -51,9 +52,7 @@ def command(what: str, style: str, store_path: Path, is_trusted: bool) -> int:
 
 def shrunk_mission(what: str, store_path: Path, is_trusted: bool) -> ShrunkMission:
     """The mission that is named, shrunk."""
-    name, _, chosen = what.partition("#")
-    if chosen and not chosen.isdigit():
-        raise Unusable(f"`{chosen}` is no number of a mission", "write RUN#MISSION, such as latest#37")
+    name, chosen = mission_of_run(what)
     try:
         with read_store(store_path) as store:
             run = store.find(name or LATEST)
@@ -65,9 +64,10 @@ def shrunk_mission(what: str, store_path: Path, is_trusted: bool) -> ShrunkMissi
         raise Unusable(str(problem), problem.advice) from None
     if not is_same:
         raise Unusable(f"model, mission file or nddlc have changed since run {run.id}", "`nddlc check` flies it again")
-    failed = [one for one in results if one.verdict is Verdict.FAIL and (not chosen or one.number == int(chosen))]
+    failed = [one for one in results if one.verdict is Verdict.FAIL and chosen in (None, one.number)]
     if not failed:
-        raise Unusable(f"mission {chosen} of run {run.id} did not fail" if chosen else f"no mission of {run.id} failed")
+        named = f"no mission of {run.id}" if chosen is None else f"{mission_name(chosen)} of run {run.id}"
+        raise Unusable(f"{named} failed" if chosen is None else f"{named} did not fail")
     shrunk = campaign.shrink(failed[0], results)
     if shrunk is None:
         raise Unusable(f"mission {failed[0].number} of run {run.id} does not fail alike when it is flown again")

@@ -68,15 +68,17 @@ def rate_line(rate: Rate) -> str:
     if rate.interval is None:
         share = f"{percent(rate.observed)} of the missions failed" if rate.missions else "no mission was flown"
         return f"{share}; no interval: a design chose them, so that they are not independent"
-    basis = ""
+    basis, placed = "", ""
     if rate.has_gaps:
         basis = f" in the {missions(rate.counted)} before the first one still in flight"
     elif rate.counted < rate.missions:
         basis = f" in the {missions(rate.counted)} that no design chose"
+        failed = rate.failures - rate.counted_failures
+        placed = f"; {failed} of the {rate.missions - rate.counted} that the design chose failed" if failed else ""
     elif rate.method is Method.WEIGHTED:
         basis = f" ({rate.failures} of {rate.missions} missions failed, where failures were sought)"
     method = _METHODS[rate.method].format(level=level)
-    return f"failure rate {percent(rate.observed)}{basis}; {method} {_interval_text(rate.interval)}"
+    return f"failure rate {percent(rate.observed)}{basis}; {method} {_interval_text(rate.interval)}{placed}"
 
 
 def stop_line(findings: Findings) -> str:
@@ -109,7 +111,8 @@ def case_lines(findings: Findings) -> list[str]:
     lines = [f"{counted(len(cases), 'regression case')} flown first: {still}"]
     for one in failing[:_MOST_CASES]:
         why = failure_text(one.result.judgement, one.result.open_goals)
-        lines.append(f"{_case_name(one)} ({one.case.was}): {one.result.judgement.code} {why}".rstrip())
+        was = f" ({one.case.was})" if one.case.was not in ("", one.result.judgement.code) else ""
+        lines.append(f"{_case_name(one)}{was}: {one.result.judgement.code} {why}".rstrip())
     return [*lines, *([f"{len(failing) - _MOST_CASES} more"] if len(failing) > _MOST_CASES else [])]
 
 
