@@ -24,6 +24,7 @@ from checker.contrast import Contrast, Trace, find_contrast, nearest_passing
 from checker.counterfactual.effort import Bounds
 from checker.counterfactual.ranking import Causes
 from checker.counterfactual.search import CauseSearch, Suspended
+from checker.coverage import branches_taken
 from checker.drawn import Drawn, drawn_paths
 from checker.faults import Interruptible, Sought
 from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
@@ -233,7 +234,10 @@ class Campaign:
 
     def story(self, result: MissionResult, fault: Fault | None) -> Story:
         """Why a mission failed."""
-        return tell(result, self.models.agent, self.models.influence, fault, self._text())
+        behaviour = result.outcome.behaviour if result.outcome is not None else ()
+        programs = [self.models.programs[each.model] for each in self.models.agent.reactors] if behaviour else []
+        taken = branches_taken(programs, behaviour) if programs else None
+        return tell(result, self.models.agent, self.models.influence, fault, self._text(), taken)
 
     def pairs(self, findings: Findings) -> list[Pair | None]:
         """The example of each fault with a passing mission near to it, which is flown again for its events."""

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from checker.batch.result import MissionResult
+from checker.influence import Branch, branch_of
 from checker.models import ModelSet
 from checker.names import relative_name
 from compiler.program import Guard, Instruction, ObjectLoop, Program, RuleCode
@@ -177,6 +178,13 @@ def _held(reactor: ReactorRecord) -> set[tuple[str, str]]:
 def left_out(behaviour: Sequence[int], other: Sequence[int]) -> int:
     """How many rules and branches one mission exercised and another, of the same models, did not."""
     return len({one for one in behaviour if not is_event(one)}.difference(other))
+
+
+def branches_taken(programs: Sequence[Program], behaviour: Sequence[int]) -> frozenset[Branch]:
+    """The branches that a mission took; `programs` are those of its reactors, in order."""
+    exercised = set(behaviour)
+    sites = enumerate(Universe(programs).sites)
+    return frozenset(branch_of(one.span, one.branch) for number, one in sites if one.branch and number in exercised)
 
 
 _KNOWN: list[Universe] = []  # the last one: a worker flies one set of programs

@@ -4,16 +4,17 @@ A static slice: from the sampled variable through the constraints of the same ru
 It says how a draw acts inside the simulator when the conflict was found in another reactor, whose terms know no draw.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from compiler.instructions import all_instructions
 from compiler.program import (
     DURATION,
     END,
     START,
+    Guard,
     Instruction,
     LocalVariable,
+    ObjectLoop,
     Post,
     Program,
     Sample,
@@ -22,14 +23,20 @@ from compiler.program import (
 from nddl_lang.text.source import Span
 from runtime.executive.outcome import SourcePlace
 
+Branch = tuple[str, int, str]  # the file and offset of a guard, and `then` or `else`
+
 
 @dataclass(frozen=True, slots=True)
 class InfluenceLine:
-    """A line of a rule that passes a draw on; `rule` is its predicate with the class, `predicate` without."""
+    """A line of a rule that passes a draw on; `rule` is its predicate with the class, `predicate` without.
+
+    It does so in missions that take all `branches` in which it stands.
+    """
 
     rule: str
     predicate: str
     place: SourcePlace
+    branches: tuple[Branch, ...] = ()
 
 
 Influence = Mapping[str, tuple[InfluenceLine, ...]]  # by parameter
@@ -43,12 +50,34 @@ def lines_of_influence(program: Program, parameter: str) -> tuple[InfluenceLine,
     lines: list[InfluenceLine] = []
     for rule in program.rules:
         predicate = rule.predicate.rpartition(".")[2]
-        body = list(all_instructions(rule.body))
+        placed = list(_placed(rule.body))
+        body = [instruction for instruction, _ in placed]
+        branches = {id(instruction): within for instruction, within in placed}
         for instruction in body:
             if isinstance(instruction, Sample) and instruction.parameter == parameter:
-                spans = [instruction.span, *_slice(body, instruction)]
-                lines += [InfluenceLine(rule.predicate, predicate, line_of(span)) for span in spans]
+                found: list[Sample | Post] = [instruction, *_slice(body, instruction)]
+                lines += [
+                    InfluenceLine(rule.predicate, predicate, line_of(one.span), branches[id(one)]) for one in found
+                ]
     return tuple(dict.fromkeys(lines))
+
+
+def branch_of(guard: Span, name: str) -> Branch:
+    """What tells a branch of a guard from all others of a model."""
+    return guard.source.name, guard.begin, name
+
+
+def _placed(
+    body: Sequence[Instruction], within: tuple[Branch, ...] = ()
+) -> Iterator[tuple[Instruction, tuple[Branch, ...]]]:
+    """Each instruction in the order of the text, with the branches in which it stands."""
+    for each in body:
+        yield each, within
+        if isinstance(each, Guard):
+            yield from _placed(each.then, (*within, branch_of(each.span, "then")))
+            yield from _placed(each.otherwise, (*within, branch_of(each.span, "else")))
+        elif isinstance(each, ObjectLoop):
+            yield from _placed(each.body, within)
 
 
 def line_of(span: Span) -> SourcePlace:
@@ -57,7 +86,7 @@ def line_of(span: Span) -> SourcePlace:
     return SourcePlace(source.name, span.line, span.column, source.line(span.line).partition("//")[0].strip())
 
 
-def _slice(body: list[Instruction], sample: Sample) -> list[Span]:
+def _slice(body: list[Instruction], sample: Sample) -> list[Post]:
     reached = {sample.target}
     posts: list[Post] = []
     grows = True
@@ -74,7 +103,7 @@ def _slice(body: list[Instruction], sample: Sample) -> list[Span]:
         posts = [
             post for post in posts[: last + 1] if post in ends or any(_feeds(post, end) for end in posts[: last + 1])
         ]
-    return [post.span for post in posts]
+    return posts
 
 
 def _feeds(post: Post, other: Post) -> bool:

@@ -1,6 +1,6 @@
 """One failed mission in, its story out: the steps from what was drawn to the line where the agent gave up."""
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -17,7 +17,7 @@ from checker.causes import (
 )
 from checker.culprit import culprit_of, in_telling_order
 from checker.findings import Fault
-from checker.influence import Influence, InfluenceLine
+from checker.influence import Branch, Influence, InfluenceLine
 from checker.losses import Limit
 from checker.oracle import Judgement
 from checker.proofs.conflict import Confirmation, confirm, needed_elements
@@ -114,15 +114,19 @@ def tell(
     influence: Influence,
     fault: Fault | None,
     text: ModelText | None = None,
+    taken: Container[Branch] | None = None,
 ) -> Story:
-    """The story of a mission that failed and whose outcome is at hand; z3 reads the meaning of lines from `text`."""
+    """The story of a mission that failed and whose outcome is at hand; z3 reads the meaning of lines from `text`.
+
+    `taken` are the branches that the mission took, if that is known.
+    """
     outcome = result.outcome
     assert outcome is not None
     conflict = failed_by(outcome).conflict
     confirmation = _confirmed(result, conflict, fault, text)
     parameters = suspects(outcome, fault)
     until = _decided_at(result, outcome)
-    draws = _draws(outcome, agent, influence, parameters, until)
+    draws = _draws(outcome, agent, _acting(influence, outcome, until, taken), parameters, until)
     shown = _tokens_of(outcome, influence, parameters, until)
     indices = {
         *shown,
@@ -230,6 +234,21 @@ def _tokens_of(outcome: Outcome, influence: Influence, parameters: tuple[str, ..
     last = {predicate: index for index, tick, _, predicate in heads_of(outcome.events) if tick <= until}
     wanted = dict.fromkeys(line.predicate for name in parameters for line in influence.get(name, ()))
     return [last[predicate] for predicate in wanted if predicate in last]
+
+
+def _acting(influence: Influence, outcome: Outcome, until: int, taken: Container[Branch] | None) -> Influence:
+    """Lines that a mission came to up to a tick, on branches that it took, and those of which its conflict speaks."""
+    begun = {predicate for _, tick, _, predicate in heads_of(outcome.events) if tick <= until}
+    conflict = failed_by(outcome).conflict
+    places = [one.place for one in conflict.elements if one.place is not None] if conflict is not None else []
+    spoken = {(place.file, place.line) for place in places}
+
+    def acts(line: InfluenceLine) -> bool:
+        if (line.place.file, line.place.line) in spoken:
+            return True
+        return line.predicate in begun and (taken is None or all(branch in taken for branch in line.branches))
+
+    return {name: tuple(line for line in lines if acts(line)) for name, lines in influence.items()}
 
 
 def _draws(

@@ -112,7 +112,7 @@ def case_lines(findings: Findings) -> list[str]:
     for one in failing[:_MOST_CASES]:
         why = failure_text(one.result.judgement, one.result.open_goals)
         was = f" ({one.case.was})" if one.case.was not in ("", one.result.judgement.code) else ""
-        lines.append(f"{_case_name(one)}{was}: {one.result.judgement.code} {why}".rstrip())
+        lines.append(f"{_case_name(one)}{was}: {' '.join(filter(None, (one.result.judgement.code, why)))}")
     return [*lines, *([f"{len(failing) - _MOST_CASES} more"] if len(failing) > _MOST_CASES else [])]
 
 

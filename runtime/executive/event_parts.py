@@ -34,6 +34,10 @@ class EventRun:
         self.first = first
         self.count = count
 
+    def __reduce__(self) -> tuple[type["EventRun"], tuple[EventColumns, int, int]]:
+        """How pickle makes another: workers send traces."""
+        return EventRun, (self.columns, self.first, self.count)
+
 
 class EventParts:
     """Single events and runs in order; `starts` has the index of the first event of each, `length` counts events."""
@@ -45,6 +49,10 @@ class EventParts:
         for part in parts:
             self.starts.append(self.length)
             self.length += part.count if isinstance(part, EventRun) else 1
+
+    def __reduce__(self) -> tuple[type["EventParts"], tuple[tuple[Event | EventRun, ...]]]:
+        """How pickle makes another."""
+        return EventParts, (tuple(self.all_parts),)
 
     def __len__(self) -> int:
         return self.length
