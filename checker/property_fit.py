@@ -1,6 +1,7 @@
 """Hold the properties of a mission file against its models: predicates and arguments that these do not have."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from checker.codes import (
     ILL_VALUE,
@@ -23,6 +24,7 @@ from nddl_lang.text.nearest import nearest
 from runtime.executive.configuration import LevelPattern, PropertyConfiguration, TokenPattern
 
 _Path = tuple[str | int, ...]
+_NUMBERS = ("int", "float", "bool")
 
 
 def property_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[Diagnostic]:
@@ -96,10 +98,38 @@ def _pattern_misfits(
             key: _Path = (*path, "parameters", name) if is_listed else (*path, "where")
             span = mission.text.key_span(key) if is_listed else mission.text.value_span(key)
             what = pattern.predicate or str(class_name)
-            advice = _advice(name, [*sorted(names), *TOKEN_TIMES], "arguments")
+            advice = _value_advice(name, chosen, program) or _advice(name, [*sorted(names), *TOKEN_TIMES], "arguments")
             yield NO_ARGUMENT.at(span, predicate=what, name=name, help=advice)
+    if all(name in names for name in names_of(pattern)):
+        yield from _uncompared(mission, pattern, path, chosen)
     for one in chosen:
         yield from _strange_values(mission, pattern, path, one, program)
+
+
+def _uncompared(
+    mission: Mission, pattern: TokenPattern, path: _Path, predicates: list[PredicateCode]
+) -> Iterator[Diagnostic]:
+    """Complain of arguments in a condition that are no numbers: it would never hold."""
+    span = mission.text.value_span((*path, "where"))
+    for name in dict.fromkeys(names_of(replace(pattern, parameters=()))):
+        found = [one for one in predicates if name in {parameter.name for parameter in one.parameters}]
+        kinds = [next(each.type for each in one.parameters if each.name == name) for one in found]
+        if kinds and all(one.kind not in _NUMBERS for one in kinds):
+            yield ILL_VALUE.at(
+                span, predicate=found[0].name, name=name, wanted="a number for `where` to compare",
+                found=f"of `{kinds[0].type_name or kinds[0].kind}`", help=f"write `parameters = {{ {name} = ... }}`",
+            )  # fmt: skip
+
+
+def _value_advice(name: str, predicates: list[PredicateCode], program: Program) -> str | None:
+    """What to write where a condition names a value that an argument may have, which is no number."""
+    parameters = [parameter for one in predicates for parameter in one.parameters]
+    for one in parameters:
+        if one.type.kind == "bool" and name in ("true", "false"):
+            return f"`where` compares numbers; write `parameters = {{ {one.name} = {name} }}`"
+        if one.type.kind == "enum" and name in dict(program.enums).get(one.type.type_name, ()):
+            return f'`where` compares numbers; write `parameters = {{ {one.name} = "{name}" }}`'
+    return None
 
 
 def _strange_values(

@@ -9,12 +9,13 @@ import click
 
 BAR_SECONDS = 0.2  # between two looks on a terminal
 LINE_SECONDS = 4.0  # between two plain lines
+_PATIENCE = 30.0  # seconds after which it is said how to do without conditions
 
 
 class SeekingDisplay:
     """A call shows how many flights were made to find out why missions fail, unless that was done just now.
 
-    Causes are sought for `most` seconds, where that is said.
+    Causes are sought for `most` seconds, where that is said; for conditions no flights are made with `--no-conditions`.
     """
 
     def __init__(self, most: float | None = None) -> None:
@@ -36,8 +37,10 @@ class SeekingDisplay:
             return
         self._shown, self._is_shown = now, True
         text = f"seeking causes and conditions: {flights} flights in {now - self._begun:.0f} s"
-        if len(text + self._most) < shutil.get_terminal_size().columns:
-            text += self._most
+        is_long = self._most and now - self._begun > _PATIENCE
+        hint = " (quicker: --no-conditions)" if is_long else self._most
+        if len(text + hint) < shutil.get_terminal_size().columns:
+            text += hint
         if self._is_terminal:
             click.echo(f"\r\x1b[K{text}", nl=False, err=True)
         else:

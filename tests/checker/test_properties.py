@@ -232,6 +232,55 @@ def test_a_mistake_about_a_level_is_named(
     assert message in capsys.readouterr().out
 
 
+LAMP = """#include "TREX.nddl"
+enum Colour { red, green }
+class Lamp extends AgentTimeline {
+    predicate Off { }
+    predicate On { Colour colour; bool bright; int power; }
+    Lamp(Mode m) { super(m, "Off"); }
+}
+Lamp::On { duration == 2; }
+Lamp::Off { duration == 2; }
+Lamp lamp = new Lamp(Internal);
+close();
+"""
+LAMP_MISSION = """[mission]
+name = "lamp"
+final_tick = 10
+[[reactor]]
+name = "sim"
+model = "lamp.nddl"
+lookahead = 1
+internal = ["lamp"]
+[[property]]
+name = "p"
+kind = "never"
+timeline = "lamp"
+predicate = "On"
+where = "CONDITION"
+"""
+
+
+@pytest.mark.parametrize(
+    ("condition", "message", "help_"),
+    [
+        ("power > 3 and bright", "", ""),
+        ("bright == true", "has no parameter `true`", "write `parameters = { bright = true }`"),
+        ("colour == red", "has no parameter `red`", 'write `parameters = { colour = "red" }`'),
+        ("colour == 1", "must be a number for `where` to compare, not of `Colour`", "`parameters = { colour = ... }`"),
+    ],
+)  # fmt: skip
+def test_a_condition_on_what_is_no_number_is_told_how_to_write_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], condition: str, message: str, help_: str
+) -> None:
+    (tmp_path / "lamp.nddl").write_text(LAMP)
+    (tmp_path / "mission.toml").write_text(LAMP_MISSION.replace("CONDITION", condition))
+    assert run(["lint", str(tmp_path / "mission.toml"), "--format", "json"]) == (1 if message else 0)
+    found = [one for one in json.loads(capsys.readouterr().out)["diagnostics"] if one["severity"] == "error"]
+    assert all(message in one["message"] and help_ in one["help"] and one["line"] == 14 for one in found)
+    assert bool(found) == bool(message)
+
+
 # ---- mission files ----
 
 PROPERTY = """

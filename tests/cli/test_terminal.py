@@ -8,6 +8,7 @@ import pytest
 
 from nddlc.fitting import fitted
 from nddlc.main import run
+from nddlc.seeking import SeekingDisplay
 
 ROOT = Path(__file__).parents[2]
 LINK = "\x1b]8;;http://localhost/\x1b\\here\x1b]8;;\x1b\\"  # OSC 8, a link
@@ -78,3 +79,18 @@ def test_a_name_is_no_html_in_a_report(project: Path, capsys: pytest.CaptureFixt
     for part in re.findall(r"<script[^>]*>(.*?)</script>", page, re.DOTALL):
         assert HTML not in part
     capsys.readouterr()
+
+
+def test_a_long_search_says_how_to_do_without_conditions(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    clock = iter((0.0, 10.0, 40.0))
+    monkeypatch.setattr("nddlc.seeking.time.monotonic", lambda: next(clock))
+    monkeypatch.setenv("COLUMNS", "120")
+    with SeekingDisplay(60.0) as seeking:
+        seeking(5)
+        seeking(20)
+    assert capsys.readouterr().err.splitlines() == [
+        "seeking causes and conditions: 5 flights in 10 s (causes: at most 60 s)",
+        "seeking causes and conditions: 20 flights in 40 s (quicker: --no-conditions)",
+    ]
