@@ -50,7 +50,7 @@ class EventParts:
             self.starts.append(self.length)
             self.length += part.count if isinstance(part, EventRun) else 1
 
-    def __reduce__(self) -> tuple[type["EventParts"], tuple[tuple[Event | EventRun, ...]]]:
+    def __reduce__(self) -> tuple[object, ...]:
         """How pickle makes another."""
         return EventParts, (tuple(self.all_parts),)
 
