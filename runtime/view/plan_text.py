@@ -52,9 +52,15 @@ class PlanReport:
         return sorted(shown, key=_times)
 
     def beyond(self) -> list[str]:
-        """The goals that are not planned since they may lie outside the horizon."""
-        left = [each for each in self.plan.tokens if each.name in self.goals and each.state == "INACTIVE"]
-        return [each.name for each in left if not _is_within(each, self.limits)]
+        """The goals that are not planned since they may lie outside the horizon, or whose own subgoals are not."""
+        waiting = {each.parent for each in self.plan.tokens if each.state == "INACTIVE" and not self.is_within(each)}
+        left = [each for each in self.plan.tokens if each.name in self.goals and not self.is_within(each)]
+        return [each.name for each in left if each.state == "INACTIVE" or each.name in waiting]
+
+    def is_within(self, token: TokenState) -> bool:
+        """Whether a token lies in the horizon, whatever its times come to be."""
+        own = token.extent
+        return own is not None and self.limits.start <= own.start[0] and own.end[1] <= self.limits.end
 
     def hidden_text(self) -> str:
         """How many tokens are not shown."""
@@ -120,12 +126,16 @@ def verdict(report: PlanReport) -> Iterator[str]:
     if report.result == "plan":
         own = [token for token in report.plan.tokens if token.name in report.named and not token.is_fact]
         left = [token for token in own if token.state == "INACTIVE" and token.parent is None]
-        beyond = report.beyond()
-        beyond += [token.name for token in left if not _is_within(token, report.limits) and token.name not in beyond]
-        others = [token.name for token in left if _is_within(token, report.limits)]
+        named = report.beyond()
+        active = [token.name for token in own if token.state == "ACTIVE" and token.name in named]
+        beyond = [name for name in named if name not in active]
+        beyond += [token.name for token in left if not report.is_within(token) and token.name not in beyond]
+        others = [token.name for token in left if report.is_within(token)]
+        where = f"may lie outside the horizon from {report.limits.start} to {report.limits.end}, see --horizon"
         if beyond:
-            where = f"may lie outside the horizon from {report.limits.start} to {report.limits.end}, see --horizon"
             yield f"not planned, since they {where}: {_listed(beyond)}"
+        if active:
+            yield f"nothing planned of what these ask for, since they {where}: {_listed(active)}"
         if others:
             yield f"not planned, since nothing asks for it: {_listed(others)}"
         rejected = [token.name for token in own if token.state == "REJECTED"]
@@ -135,11 +145,6 @@ def verdict(report: PlanReport) -> Iterator[str]:
         for each in report.open_levels:
             yield f"not decided: {each.text()}; a ResourceThreatManager in --config mends this"
     yield _ending(report)
-
-
-def _is_within(token: TokenState, limits: Limits) -> bool:
-    own = token.extent
-    return own is not None and limits.start <= own.start[0] and own.end[1] <= limits.end
 
 
 def _listed(names: Sequence[str]) -> str:

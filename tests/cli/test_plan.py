@@ -325,3 +325,31 @@ def test_a_value_that_a_foreach_went_through_is_told(tmp_path: Path, capsys: pyt
     assert run(["plan", "--explain", str(tmp_path / "boats.nddl")]) == 1
     told = capsys.readouterr().out
     assert "g::choice may not lose a value any more: `foreach` has gone through {a, b}" in told
+
+
+LOOSE = """\
+class Valve extends Timeline { predicate Open { } }
+class Panel extends Timeline { predicate Flush { } }
+Panel::Flush { contains(Valve.Open o); }
+Valve valve = new Valve();
+Panel panel = new Panel();
+close();
+goal(panel.Flush flush);
+flush.activate();
+"""
+
+
+def test_an_activated_goal_of_which_nothing_is_planned_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = tmp_path / "loose.nddl"
+    model.write_text(LOOSE)
+    assert run(["plan", str(model)]) == 1
+    told = capsys.readouterr().out
+    assert "nothing planned of what these ask for, since they may lie outside the horizon from 0 to 1000" in told
+    assert told.rstrip().endswith("but 1 goal left out")
+    assert run(["plan", str(model), "--allow-unplanned"]) == 0
+    model.write_text(
+        LOOSE.replace("flush.activate();", "flush.start = [0 10];\nflush.end = [0 50];\nflush.activate();")
+    )
+    assert run(["plan", str(model)]) == 0
