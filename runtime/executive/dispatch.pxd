@@ -6,7 +6,7 @@ from runtime.executive.timelines cimport TimelineState
 from runtime.executive.view cimport whole_bound
 from runtime.executive.workbench cimport Workbench
 
-cdef long long NOTHING, INFINITY
+cdef long long FLAG_SENT, INFINITY, NOTHING
 
 
 cdef class Dispatch:

@@ -7,7 +7,7 @@ from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.view import whole_bound
 from runtime.executive.workbench import Workbench
-from runtime.plan.tags import INFINITY
+from runtime.plan.tags import FLAG_SENT, INFINITY
 
 
 class Dispatch:
@@ -99,6 +99,7 @@ class Dispatch:
                 asked.append(request)
                 self.sent[self.bench.key(token)] = request
                 self.sent_tokens[self.bench.key(token)] = token
+                self.bench.rows.set_flag(token, FLAG_SENT, True)
         return asked
 
     def _is_due(self, line: TimelineState, token: int, tick: int, final_tick: int) -> bool:
@@ -212,6 +213,8 @@ class Dispatch:
             self.begun.pop(request.number, None)
             del self.sent[key]
             del self.sent_tokens[key]
+            if self.bench.is_alive(token, key):
+                self.bench.rows.set_flag(token, FLAG_SENT, False)
         self.is_repaired = False
         return numbers
 

@@ -17,6 +17,7 @@ FLAG_EFFECT = 16
 FLAG_ACTION = 32
 FLAG_EVENT = 64
 FLAG_NATIVE = 128  # a token of a resource: active from the moment it is made
+FLAG_SENT = 256  # the owner of its timeline was asked for it
 
 # ---- variables of a token, as in compiler/program.py ----
 STATE, OBJECT, DURATION, START, END, FIRST_PARAMETER = range(6)

@@ -7,7 +7,7 @@ import pytest
 from runtime.executive.chance import sample
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
 from runtime.executive.outcome import EventKind, Outcome
-from tests.executive.flying import flown, fly, history, lines, simulator
+from tests.executive.flying import flown, fly, history, lines, planner, simulator
 
 SEA = """
 float SWELL = [0.0 1.0];
@@ -166,6 +166,25 @@ def test_a_command_begins_at_the_first_tick_of_its_window_at_which_what_is_drawn
         assert [line.partition(" ")[0] for line in lines(outcome, "reject")] == ([] if fitting else ["30"])
         begun, given_up = begun + (fitting[:1] > [free]), given_up + (not fitting)
     assert begun and given_up >= is_busy
+
+
+def test_a_planner_plans_with_the_draw_of_the_earliest_start() -> None:
+    text, fitting = ARM.replace("LENGTH", "10"), []
+    for seed in range(6):
+        flight = flown(
+            planner("arm", text, "arm"),
+            until=40,
+            goals=(done(0, 2, (3.0, 30.0), False),),
+            parameters=(LOAD,),
+            seed=seed,
+        )
+        fitting.append(sample(LOAD, seed, 3).value <= 0.4)
+        assert flight.report.holds
+        assert [line.partition(" ")[0] for line in history(flight.outcome, "arm")] == (
+            ["0", "3", "13"] if fitting[-1] else ["0"]
+        )
+        assert [line.partition(" ")[0] for line in lines(flight.outcome, "reject")] == ([] if fitting[-1] else ["0"])
+    assert {True, False} == set(fitting)
 
 
 def test_what_is_drawn_for_a_command_that_waits_leaves_no_other_without_room() -> None:

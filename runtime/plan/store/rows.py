@@ -112,6 +112,10 @@ class Rows:
 
     # ---- tokens ----
 
+    def set_flag(self, t: int, flag: int, is_set: bool) -> None:
+        """Set or clear one of the flags of a token."""
+        self.flags[t] = self.flags[t] | flag if is_set else self.flags[t] & ~flag
+
     def new_token(self, predicate: int, flags: int, parent: int, creator: int, span: int) -> int:
         """Take a row for a token; its variables are for the caller to make."""
         t = self.free_token

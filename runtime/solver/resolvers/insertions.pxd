@@ -6,7 +6,7 @@ from runtime.solver.flaws.decisions cimport Decisions
 from runtime.solver.flaws.agenda cimport Agenda
 from runtime.constraints.stn.reach cimport Reach
 
-cdef long long DURATION, END, FLAG_FACT, FLAG_GOAL, HALF_INF, LISTS, LIST_ORDER, NEVER, OBJECT, START
+cdef long long DURATION, END, FLAG_FACT, FLAG_GOAL, FLAG_SENT, HALF_INF, LISTS, LIST_ORDER, NEVER, OBJECT, START
 
 
 cpdef int list_insertions(Agenda agenda, Decisions stack, long long d, long long t) except -1
@@ -17,7 +17,7 @@ cpdef int _list_insertions_on(Agenda agenda, Decisions stack, long long d, long 
 
 cpdef bint _is_for_goal(Agenda agenda, long long t) except -1
 
-@cython.locals(theirs="long long", begin=double, free=double, is_asked=bint)
+@cython.locals(before="long long", theirs="long long", begin=double, free=double, is_asked=bint, is_child=bint, is_sent=bint)
 cpdef int _list_behind_goals(Agenda agenda, Decisions stack, long long start, long long t) except -1
 
 cpdef long long _first_apart(Agenda agenda, Reach reach, long long time, long long count, bint is_reversed) except? -1

@@ -3,7 +3,7 @@
 from runtime.constraints.domains.bitset import next_value
 from runtime.constraints.domains.tags import HALF_INF, NEVER
 from runtime.constraints.stn.reach import Reach
-from runtime.plan.tags import DURATION, END, FLAG_FACT, FLAG_GOAL, LIST_ORDER, LISTS, OBJECT, START
+from runtime.plan.tags import DURATION, END, FLAG_FACT, FLAG_GOAL, FLAG_SENT, LIST_ORDER, LISTS, OBJECT, START
 from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.decisions import Decisions
 
@@ -54,7 +54,7 @@ def _list_insertions_on(agenda: Agenda, stack: Decisions, d: int, t: int, o: int
         stack.add_to_pool(d, o, t, sequence.tokens[gap])
     if behind == count:
         stack.add_to_pool(d, o, sequence.tokens[count - 1], t)
-    if agenda.earliest and (agenda.rows.parent[t] < 0 or not _is_for_goal(agenda, t)):
+    if agenda.earliest:
         _list_behind_goals(agenda, stack, start, t)
     return 0
 
@@ -71,21 +71,28 @@ def _list_behind_goals(agenda: Agenda, stack: Decisions, start: int, t: int) -> 
 
     A goal that asked for no later start but waits for such goals comes before `t`, too: equals keep their order. Then
     come the later ones, and the earlier ones from right to left. Who plans for an executive keeps goals from waiting by
-    this; otherwise the order is EUROPA's, from left to right.
+    this; otherwise the order is EUROPA's, from left to right. So is that of what a goal asks for, but behind what
+    owners were asked for before: they carry that out in this order.
     """
     engine = agenda.engine
+    is_child = agenda.rows.parent[t] >= 0 and _is_for_goal(agenda, t)
     mine = agenda.rows.var0[t] + START
     end = stack.pool_used
     first = start
     free = engine.lb[mine]  # from when on `t` has the timeline, behind all of these
+    if end > start + 1:
+        before = agenda.rows.link_before[LISTS * stack.pool_after[start] + LIST_ORDER]
+        if before >= 0:  # has begun, or has to come before `t` anyway
+            free = max(free, engine.lb[agenda.rows.var0[before] + END])
     for at in range(start, end - 1):
         after = stack.pool_after[at]
         theirs = agenda.rows.var0[after]
         begin = engine.lb[theirs + START]
-        if begin > free or not _is_for_goal(agenda, after):
+        is_sent = (agenda.rows.flags[after] & FLAG_SENT) != 0
+        if begin > free or not (is_sent if is_child else _is_for_goal(agenda, after)):
             continue
         is_asked = agenda.rows.flags[after] & FLAG_GOAL and engine.base_lower(theirs + START) <= engine.lb[mine]
-        if is_asked or begin <= engine.lb[mine]:
+        if is_sent or is_asked or begin <= engine.lb[mine]:
             first = at + 1
             free = max(free, engine.lb[theirs + END])
     if first > start:
