@@ -5,6 +5,7 @@ The elements of a conflict hang together by the variables they share. Workers re
 
 from dataclasses import dataclass
 
+from compiler.program import TOKEN_TIMES
 from runtime.executive.outcome import Conflict, ConflictElement, ElementKind, SourcePlace
 from runtime.plan.readout.names import VariableName
 
@@ -15,7 +16,10 @@ _WORLD = (
     ElementKind.REQUEST,
     ElementKind.CLOCK,
 )
+_BOUNDING = (ElementKind.CONSTRAINT, ElementKind.DURATION)
 _VALUES = (ElementKind.ASSIGNMENT, ElementKind.DECLARATION)
+# Kinds of elements that say when something may be.
+_TIMING = (ElementKind.CLOCK, ElementKind.RELATION, ElementKind.ORDER, ElementKind.LONGEST, ElementKind.SHARED_END)
 _LIMITS = ("leq", "lt", "neq", "bounds", "withinBounds", "precedes", "strictlyPrecedes")
 
 
@@ -75,6 +79,13 @@ def own_elements(conflict: Conflict | None) -> list[ConflictElement]:
     return [element for element, one in zip(conflict.elements, reactors, strict=True) if one in own]
 
 
+def is_of_values(conflict: Conflict) -> bool:
+    """Whether a conflict holds whenever it comes: what its lines compute can be no duration, or no value at all."""
+    return not any(
+        _is_timed(element) or (element.kind in _BOUNDING and _is_limit(element)) for element in conflict.elements
+    )
+
+
 def in_telling_order(conflict: Conflict, last: int) -> list[int]:
     """The numbers of the elements from the draws outwards, `last` at the end; as given where nothing was drawn."""
     neighbours = _neighbours(conflict)
@@ -112,11 +123,21 @@ def _distances(neighbours: list[set[int]], roots: list[int]) -> dict[int, int]:
     return far
 
 
+def _is_timed(element: ConflictElement) -> bool:
+    """Whether an element says when something may be, or was asked to be."""
+    is_told = element.kind in _WORLD and any(one.name in TOKEN_TIMES for one in element.variables)
+    return element.kind in _TIMING or is_told
+
+
+def _is_limit(element: ConflictElement) -> bool:
+    """Whether an element bounds one value by another."""
+    return any(term.name in _LIMITS for term in element.terms)
+
+
 def _rank(element: ConflictElement) -> int:
     """How likely a line is the mistaken one: written limits before values before relations before the rest."""
-    is_limit = any(term.name in _LIMITS for term in element.terms)
     match element.kind:
-        case ElementKind.CONSTRAINT | ElementKind.DURATION if is_limit:
+        case kind if kind in _BOUNDING and _is_limit(element):
             return 0
         case ElementKind.ASSIGNMENT | ElementKind.DECLARATION:
             return 1

@@ -64,7 +64,7 @@ def _cause_lines(story: Story, causes: Causes, excerpts: Excerpts, most: int) ->
     """The lines to look at, each with what its trial showed."""
     effort = effort_text(causes, "the same mission" if causes.flown in (0, story.number) else "one that fails alike")
     if not causes.ranked:
-        return [f"no change of one line makes it pass ({effort})"]
+        return [f"none of the changes tried makes it pass ({effort})"]
     lines = [f"causes, the likeliest first ({effort}):"]
     for place, cause in enumerate(causes.ranked[:most], 1):
         lines += [f"{place:>4}  {claim_text(cause)}", *excerpt_lines(cause.place, excerpts, marked=place == 1)]

@@ -9,6 +9,7 @@ from contextlib import suppress
 from checker.conditions.condition import Extreme, Literal, axis_feature
 from checker.conditions.crossings import FINE, Crossing, sharpen
 from checker.conditions.flights import Flights, SpentError
+from checker.conditions.saddles import taken_apart
 from checker.conditions.terms import best_term
 from checker.simplest import shortest_decimal
 
@@ -37,7 +38,7 @@ def find_edges(flights: Flights, crossings: Sequence[Crossing]) -> list[Literal]
             left = [one for one in left if one not in explained]
     for one in left:  # what nothing else explains may still be a limit that was met once
         found.append(_axis_literal(flights, one.axis, [one]))
-    return list(dict.fromkeys(found))
+    return list(dict.fromkeys(each for one in found for each in taken_apart(one, axes)))
 
 
 def _may_coincide(flights: Flights, crossings: Sequence[Crossing]) -> bool:

@@ -9,7 +9,7 @@ from checker.conditions.condition import Condition, Conjunction, Extreme, Featur
 from checker.conditions.crossings import FINE, find_crossings, mend_crossings
 from checker.conditions.edges import find_edges
 from checker.conditions.flights import Ended, Flights, Refly, flight_budget, fresh_budget, label_of
-from checker.conditions.measure import Quality, measure, measured_on
+from checker.conditions.measure import Quality, measure, measured_on, parts_that_hold
 from checker.conditions.rules import induce, sample_cuts
 from checker.conditions.space import Space
 from checker.smt.edges import find_failing_range
@@ -61,7 +61,14 @@ def find_condition(
         conjunctions = _induced(space, rows, find_edges(flights, crossings), flights.rows())
     if not conjunctions:
         return None
-    measured = measure(conjunctions, space, bucket, batch_seed, refly, fresh_budget(example))
+    budget = fresh_budget(example)
+    measured = measure(conjunctions, space, bucket, batch_seed, refly, budget)
+    kept = conjunctions if measured is None else parts_that_hold(conjunctions, measured)
+    if not kept:
+        return None
+    if kept != conjunctions:  # each part has to hold by itself
+        conjunctions = kept
+        measured = measure(conjunctions, space, bucket, batch_seed, refly, budget)
     found = claimed(conjunctions, measured, flights.count, space, _share_of(rows), has_flown=True)
     return None if found is None else replace(found, in_terms=_in_terms(found, example, space))
 

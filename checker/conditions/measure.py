@@ -7,7 +7,7 @@ flown as they come.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from checker.buckets import Bucket
 from checker.conditions.condition import Conjunction, Literal, Row, Share, holds
@@ -22,27 +22,33 @@ _SCAN, _LONGEST_SCAN = 4000, 40_000
 _NEAR = 0.25  # the share of each side that counts as near
 _ENOUGH_INSIDE = 60
 _SIDES = 2
+_TELLING, _LEAST_FAILING = 4, 0.5  # missions for which one part alone holds: how many tell, and how many have to fail
 
 
 @dataclass(frozen=True, slots=True)
 class Quality:
-    """Precision and recall, over how many missions, and how many of them were near an edge."""
+    """Precision and recall, over how many missions, and how many of them were near an edge.
+
+    `inside` are the missions for which it holds, each with whether it failed.
+    """
 
     precision: Share
     recall: Share
     fresh: int
     near: int
+    inside: tuple[tuple[Row, bool], ...] = ()
 
 
 @dataclass(slots=True)
 class _Stratum:
     """Fresh missions of one kind: how likely it is, and what came of those that were flown."""
 
-    seeds: list[tuple[int, int]]  # each with the number of its mission
+    seeds: list[tuple[tuple[int, int], Row]]  # each with the number of its mission, and what it draws
     weight: float
     flown: int = 0
     failed: int = 0  # in whatever way
     alike: int = 0  # as the bucket
+    ends: list[tuple[Row, bool]] = field(default_factory=list)  # of those that were flown, each with whether it failed
 
     def interval(self, count: int) -> tuple[float, float]:
         return exact_interval(count, self.flown, 1.0 - (1.0 - _CONFIDENCE) / _SIDES)
@@ -66,13 +72,14 @@ def measure(
         each = flights // 4 if is_inside else flights - flights // 4
         quota = each // 2
         for stratum, most in ((near, quota), (far, each - min(quota, len(near.seeds)))):
-            for number, seed in stratum.seeds[:most]:
+            for (number, seed), row in stratum.seeds[:most]:
                 label = label_of(refly(space.agent, number, seed), bucket)
                 if label is None:
                     return None
                 stratum.flown += 1
                 stratum.failed += label is not Ended.PASSES
                 stratum.alike += label is Ended.FAILS
+                stratum.ends.append((row, label is not Ended.PASSES))
     inside = [strata[True, True], strata[True, False]]
     outside = [strata[False, True], strata[False, False]]
     flown = sum(one.flown for one in strata.values())
@@ -82,16 +89,28 @@ def measure(
     precision = _weighted(inside, [one.failed for one in inside])
     hit, lost = _total(inside), _total(outside)
     recall = Share(_part(hit[0], lost[0]), (_part(hit[1], lost[2]), _part(hit[2], lost[1])))
-    return Quality(precision, recall, flown, near_flown)
+    return Quality(precision, recall, flown, near_flown, tuple(end for one in inside for end in one.ends))
 
 
 def measured_on(rows: Sequence[tuple[Row, Ended]], conjunctions: Sequence[Conjunction]) -> Quality:
     """Precision and recall on missions as they came."""
-    inside = [label for row, label in rows if holds(conjunctions, row)]
+    inside = [(row, label) for row, label in rows if holds(conjunctions, row)]
     alike = sum(label is Ended.FAILS for _, label in rows)
-    failed = sum(label is not Ended.PASSES for label in inside)
-    hit = sum(label is Ended.FAILS for label in inside)
-    return Quality(_share(failed, len(inside)), _share(hit, alike), len(rows), 0)
+    ends = tuple((row, label is not Ended.PASSES) for row, label in inside)
+    hit = sum(label is Ended.FAILS for _, label in inside)
+    failed = sum(has_failed for _, has_failed in ends)
+    return Quality(_share(failed, len(inside)), _share(hit, alike), len(rows), 0, ends)
+
+
+def parts_that_hold(conjunctions: Sequence[Conjunction], measured: Quality) -> tuple[Conjunction, ...]:
+    """The conjunctions but for those that are refuted by missions for which no other one holds."""
+    kept = []
+    for one in conjunctions:
+        others = [each for each in conjunctions if each is not one]
+        own = [failed for row, failed in measured.inside if holds([one], row) and not holds(others, row)]
+        if len(own) < _TELLING or sum(own) >= _LEAST_FAILING * len(own):
+            kept.append(one)
+    return tuple(kept)
 
 
 def _as_they_come(
@@ -125,7 +144,7 @@ def _strata(conjunctions: Sequence[Conjunction], space: Space, batch_seed: int) 
         far_to_near = sorted(_distance(conjunctions, row, spreads) for _, row in side)
         limit = far_to_near[int(_NEAR * len(side))] if side else 0.0
         for is_near in (True, False):
-            seeds = [seed for seed, row in side if (_distance(conjunctions, row, spreads) <= limit) is is_near]
+            seeds = [(seed, row) for seed, row in side if (_distance(conjunctions, row, spreads) <= limit) is is_near]
             strata[is_inside, is_near] = _Stratum(seeds, len(seeds) / len(scanned))
     return strata
 

@@ -14,7 +14,7 @@ Point = tuple[float, ...]  # a value for each axis
 
 
 @dataclass(frozen=True, slots=True)
-class _FreeParameter:
+class Range:
     """A free parameter, with the range in which values are tried."""
 
     parameter: ParameterConfiguration
@@ -118,7 +118,7 @@ def fixed(agent: AgentConfiguration, values: Mapping[str, float]) -> AgentConfig
     return replace(agent, parameters=parameters)
 
 
-def _axis(parameter: ParameterConfiguration, results: Sequence[MissionResult]) -> _FreeParameter:
+def _axis(parameter: ParameterConfiguration, results: Sequence[MissionResult]) -> Range:
     """An axis over the range of a parameter and all that was drawn of it."""
     values = [parameter.lower, parameter.upper] if parameter.distribution != "discrete" else list(parameter.values)
     for result in results:
@@ -127,4 +127,4 @@ def _axis(parameter: ParameterConfiguration, results: Sequence[MissionResult]) -
     if parameter.clip is not None:
         values = [min(max(value, parameter.clip[0]), parameter.clip[1]) for value in values]
     values = [value for value in values if math.isfinite(value)] or [0.0]
-    return _FreeParameter(parameter, min(values), max(values))
+    return Range(parameter, min(values), max(values))

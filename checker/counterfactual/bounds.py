@@ -16,7 +16,9 @@ _WORD = re.compile(r"[A-Za-z_]\w*")
 _COMPARED = re.compile(r"([^<>=!&|?]+)(<=|<|>=|>)([^<>=!&|?]+);", re.DOTALL)
 _RESERVOIR = re.compile(r"\bnew\s+Reservoir\s*\(")
 _LEAST, _MOST = 1, 2  # of the arguments of a reservoir
-_NUMBERS = re.compile(r"\bnew\s+(?!Reservoir\b)(\w+)\s*\(\s*(-?[\d.]+)\s*,\s*(-?[\d.]+)")
+_NEW = re.compile(r"\bnew\s+(?!Reservoir\b)(\w+)\s*\(([^()]*)\)")
+_NUMBER = re.compile(r"-?\d+\.?\d*")
+_Order = tuple[str, int, int, bool]
 _LEVELS = re.compile(r"\bnew\s+Reservoir\s*\(\s*(-?[\d.]+)\s*,\s*(-?[\d.]+)\s*,\s*(-?[\d.]+)\s*\)")
 
 
@@ -32,22 +34,24 @@ class Directions:
             for name in _WORD.finditer(site.text):
                 if name.group() in constants and name.group() != site.named:
                     found[name.group()].add(_direction(site.text, name.start()))
-        self._made: dict[str, Counter[bool]] = defaultdict(Counter)  # objects of a class, by the order of two numbers
-        for made in (one for site in sites for one in [_made(site.text)] if one is not None):
-            self._made[made[0]][made[1]] += 1
+        self._orders: Counter[_Order] = Counter()  # of all objects, each in how many
+        for site in sites:
+            self._orders.update(_orders(site.text))
         self._demands = Demands(sites if is_late else (), constants)
         self._of = {name: ways.pop() for name, ways in found.items() if len(ways) == 1}
 
     def is_put_in_order(self, edit: SmallEdit, site: EditSite) -> bool:
-        """Whether the first two numbers that an object is made of are then in order.
+        """Whether two numbers that an object is made of change places, and are then in order.
 
         As all other objects of its class have them, or the level of a reservoir between the least and the most.
         """
-        before, after = (_made(text) for text in (site.text, site.after(edit)))
-        if before is None or after is None or before[1] is after[1]:
-            return _is_in_order(site.after(edit)) and not _is_in_order(site.text)
-        counts = self._made[before[0]]
-        return counts[before[1]] == 1 and counts[after[1]] > 0
+        after = site.after(edit)
+        if _is_in_order(after) and not _is_in_order(site.text):
+            return True
+        before = [
+            one for one in _orders(site.text) if _turned(one) in _orders(after) and _is_swap(one, site.text, after)
+        ]
+        return any(self._orders[one] == 1 and self._orders[_turned(one)] > 0 for one in before)
 
     def of(self, edit: SmallEdit, site: EditSite) -> int:
         """1 where a larger number demands less, -1 where a smaller one does, 0 where that is not known."""
@@ -73,10 +77,27 @@ def is_result_moved(edit: SmallEdit, site: EditSite) -> bool:
     return bool(is_call) and row is not None and row.result is not None and edit.begin > site.begin
 
 
-def _made(text: str) -> tuple[str, bool] | None:
-    """The class of an object that a line makes of two numbers and more, and whether the first is the smaller."""
-    found = _NUMBERS.search(text)
-    return (found.group(1), float(found.group(2)) < float(found.group(3))) if found is not None else None
+def _made(text: str) -> tuple[str, list[str]]:
+    """The class of an object that a line makes, and what of."""
+    found = _NEW.search(text)
+    return ("", []) if found is None else (found.group(1), [one.strip() for one in found.group(2).split(",")])
+
+
+def _orders(text: str) -> set[_Order]:
+    """Of each two numbers that an object is made of: its class, their places, and whether the first is the smaller."""
+    name, arguments = _made(text)
+    numbers = [(at, float(one)) for at, one in enumerate(arguments) if _NUMBER.fullmatch(one)]
+    return {(name, at, to, one < other) for at, one in numbers for to, other in numbers if at < to and one != other}
+
+
+def _turned(order: _Order) -> _Order:
+    return *order[:3], not order[3]
+
+
+def _is_swap(order: _Order, before: str, after: str) -> bool:
+    """Whether two arguments have changed places."""
+    (_, old), (_, new), (_, at, to, _) = _made(before), _made(after), order
+    return old[at] == new[to] and old[to] == new[at]
 
 
 def _is_in_order(text: str) -> bool:

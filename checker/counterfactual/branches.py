@@ -5,11 +5,12 @@ from collections.abc import Iterator
 
 from checker.counterfactual.dependence import Dependence, LooseEnd
 from compiler.instructions import all_instructions
-from compiler.program import Child, Guard, Instruction, RuleCode
+from compiler.program import Child, Guard, Instruction, NewVariable, RuleCode
 from nddl_lang.text.source import Span
 
 _SAYS = re.compile(r"\s*([A-Za-z_][\w.]*)\s*([<>=!]=?)\s*([A-Za-z_][\w.]*\s*;)?")
 _MOMENT = re.compile(r"(?:\w+\.)?(?:start|end)")
+_DECLARED = re.compile(r"\w+\s+\w+\s*;")
 _EMPTY_ELSE = re.compile(r"\}\s*else\s*\{\s*\}\s*$")
 
 
@@ -27,9 +28,14 @@ def uneven_branches(graph: Dependence) -> list[LooseEnd]:
 
 def _uneven(guard: Guard, rule: RuleCode, graph: Dependence) -> Iterator[str]:
     branches = [guard.then, guard.otherwise]
+    outside = _outside(rule, guard)
+    elsewhere = {name for name, _, _ in _said(outside, graph)}
     if not guard.otherwise and not _EMPTY_ELSE.search(guard.span.text):
-        return  # nothing is said of the other case
-    elsewhere = {name for name, _, _ in _said(_outside(rule, guard), graph)}
+        # Nothing is said of the other case, in which a variable of the rule stays open that other lines read.
+        for name, sign, _ in _said([step.span for step in all_instructions(guard.then)], graph):
+            if sign == "==" and name in _open(rule) - elsewhere and _is_read(name, outside, graph):
+                yield name
+        return
     for one, other in (branches, branches[::-1]):
         own = {step.label for step in all_instructions(one) if isinstance(step, Child)}
         there = _said([step.span for step in all_instructions(other)], graph)
@@ -38,6 +44,18 @@ def _uneven(guard: Guard, rule: RuleCode, graph: Dependence) -> Iterator[str]:
             is_moment = sign != "==" and _MOMENT.fullmatch(name) is not None  # a deadline, which one branch may have
             if not is_moment and not known & {name, same} and name.partition(".")[0] not in own:
                 yield name
+
+
+def _open(rule: RuleCode) -> set[str]:
+    """The variables that a rule declares without a value."""
+    steps = [step for step in all_instructions(rule.body) if isinstance(step, NewVariable) and step.copy_of is None]
+    return {step.name for step in steps if step.name is not None}
+
+
+def _is_read(name: str, spans: list[Span], graph: Dependence) -> bool:
+    """Whether a line speaks of a variable that does not declare it."""
+    texts = {graph.sites[one].text for span in spans for one in graph.at_span(span) if not graph.sites[one].is_rule}
+    return any(re.search(rf"(?<![\w.]){name}\b", text) and not _DECLARED.fullmatch(text) for text in texts)
 
 
 def _outside(rule: RuleCode, guard: Guard) -> list[Span]:

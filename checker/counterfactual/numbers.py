@@ -1,9 +1,11 @@
 """Edits of numbers in; out: by how much, which way, and between which others each changes its number."""
 
 import math
+import re
 
 from checker.mutation.edits import EditKind, EditSite, SmallEdit
 
+_COMPUTED = re.compile(r"\s*[A-Za-z_][\w.]*\s*==.*[A-Za-z_)].*;", re.DOTALL)
 NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 
 
@@ -22,6 +24,17 @@ def between(edit: SmallEdit, site: EditSite) -> list[SmallEdit]:
 def is_step(edit: SmallEdit, site: EditSite) -> bool:
     """Whether a number is a 1 that is added or taken away."""
     return edit.old == "1" and site.text[: edit.begin - site.begin].rstrip().endswith(("+", "-"))
+
+
+def is_whole(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether a number is the 1.0 of which a share is taken away, or to which one is added: `1.0 - dust`."""
+    before, after = site.text[: edit.begin - site.begin].rstrip(), site.text[edit.end - site.begin :].lstrip()
+    return edit.old == "1.0" and after.startswith(("-", "+")) and before.endswith(("(", "=", "*", "/"))
+
+
+def is_of_formula(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether a number without a name is a part of what a line computes by `==`."""
+    return not site.named and _COMPUTED.match(site.text) is not None
 
 
 def is_farthest(edit: SmallEdit, site: EditSite) -> bool:

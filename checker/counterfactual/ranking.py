@@ -14,7 +14,7 @@ from checker.counterfactual.candidates import Candidate
 from checker.counterfactual.damage import HEAVY
 from checker.counterfactual.smallness import is_loosening
 from checker.counterfactual.trials import LineTrial, Loose, Trials, TrialsEnd
-from checker.mutation.edits import EditKind, SmallEdit
+from checker.mutation.edits import EditKind, EditSite, SmallEdit
 from checker.names import relative_name
 from runtime.executive.outcome import SourcePlace
 
@@ -91,10 +91,14 @@ def rank(trials: Trials, root: Path) -> Causes:
     small = [one for one in mending if one.edit.kind is not EditKind.VALUE or one.candidate.site not in uneven]
     small += [one for one in trials.causes if _claim(one) is Claim.CODED]
     large = [one for one in trials.causes if one not in small]
-    loose = list({one.candidate.site: one for one in trials.loose}.values())[:_MOST_LOOSE]
+    likeliest: dict[EditSite, Loose] = {}
+    for each in trials.loose:
+        if likeliest.setdefault(each.candidate.site, each).variable == each.variable:
+            likeliest[each.candidate.site] = each
+    loose = list(likeliest.values())[:_MOST_LOOSE]
     tried = [_tried(one, root) for one in large]
     likely = [] if small else [_loose(one, root) for one in loose if one.doubt <= _LEAST_DOUBT]
-    missing = [_loose(one, root) for one in loose]
+    missing = [_loose(one, root) for one in loose if not small or _is_telling(one)]
     unset = [_loose(one, root) for one in loose if one.is_unset and one.doubt <= _LEAST_DOUBT]
     mended = [_tried(one, root) for one in small]
     causes = [*mended[:1], *unset, *mended[1:], *likely, *tried, *missing]
@@ -102,6 +106,11 @@ def rank(trials: Trials, root: Path) -> Causes:
     for cause in causes:
         lines.setdefault((cause.place.file, cause.place.line), cause)
     return Causes(tuple(lines.values()), trials.lines, trials.flights, trials.ended)
+
+
+def _is_telling(loose: Loose) -> bool:
+    """Whether a loose end is worth its words beside changes that make all missions pass."""
+    return (loose.is_unread or loose.is_uneven or loose.is_unset) and loose.doubt <= _LEAST_DOUBT
 
 
 def _claim(trial: LineTrial) -> Claim:

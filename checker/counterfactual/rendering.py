@@ -49,7 +49,7 @@ def cause_text(causes: Causes) -> str:
     if causes.first is None and causes.ended is TrialsEnd.CANCELLED:
         return f"not known ({effort_text(causes)})"
     if causes.first is None:
-        return f"no change of one line makes it pass ({effort_text(causes)})"
+        return f"none of the changes tried makes it pass ({effort_text(causes)})"
     return f"{claim_text(causes.first)} ({effort_text(causes)})"
 
 

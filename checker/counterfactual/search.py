@@ -21,6 +21,7 @@ from checker.counterfactual.ranking import Causes, Claim, RankedLine, rank
 from checker.counterfactual.trials import Missions, Trials, try_out
 from checker.counterfactual.usage import usage_of
 from checker.coverage import Universe
+from checker.culprit import is_of_values
 from checker.losses import Limit
 from checker.mission import Mission
 from checker.mutation.additions import with_additions
@@ -105,7 +106,7 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
 
 
 def is_late(failed: MissionResult) -> bool:
-    """Whether a mission failed, or lost more than it may, as something took too long, not as a level was wrong."""
+    """Whether a mission failed, or lost more than it may, as something took too long, not by a level or value."""
     outcome = failed.outcome
     assert outcome is not None
     conflict = failed_by(outcome).conflict
@@ -113,7 +114,7 @@ def is_late(failed: MissionResult) -> bool:
         conflict = next((one.conflict for one in single_events(outcome.events) if one.conflict is not None), None)
     is_level = conflict is not None and any(one.kind is ElementKind.RESOURCE for one in conflict.elements)
     is_lost = outcome.abort is not None or bool(outcome.open_goals) or failed.judgement.exceeded is not None
-    return is_lost and not is_level
+    return is_lost and not is_level and not (conflict is not None and is_of_values(conflict))
 
 
 def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult, most_seconds: float) -> MissionResult:

@@ -10,7 +10,16 @@ import re
 from checker.counterfactual.bounds import is_result_moved, sets_value
 from checker.counterfactual.mentions import leaves_one
 from checker.counterfactual.moments import mixes_times, puts_times_right
-from checker.counterfactual.numbers import NUMERIC, digits, is_farthest, is_raised, is_step, octaves
+from checker.counterfactual.numbers import (
+    NUMERIC,
+    digits,
+    is_farthest,
+    is_of_formula,
+    is_raised,
+    is_step,
+    is_whole,
+    octaves,
+)
 from checker.counterfactual.usage import Usage
 from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, is_asked_for, sign_of
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
@@ -30,6 +39,7 @@ _FEW = 3  # numbers so small that one more is much
 _LATER = 0.7  # what is no number, where most missions pass
 _SIDE = 0.1  # when it is tried whether a resource is consumed or produced: there is no third
 _BETWEEN = 0.5  # when a number is tried twice or half as large, where it is not known which is better
+_OTHER_WAY = 0.9  # when a number is changed the way that demands more
 _SWAPPED = 0.4  # when arguments change places: few lines have such
 _LATE = 3.0  # later by so much: what is tried when all likelier edits have been
 _DROP = 3.0
@@ -44,11 +54,13 @@ _LAST_USE = 2.0  # odds that a constant is not declared for nothing
 _KIN_SOON = -0.2  # when a constant is tried that belongs better into a line
 _TWIN = 1.0  # odds of a line that is then written as another line is
 _TWIN_SOON = 0.6  # and how much sooner that is tried
+_MEASURED_SOON = 0.2  # how much sooner a change is tried, for the odds of the dimensions
 _SENSE = 2.0  # odds that a line is not meant as it stands, which holds what cannot be compared
 _LIMITED = 1.0  # how much the odds count of a time that is held to a bare constant
 _NAMED = 2.0  # odds of the comparison that a constant's name asks for
 _MIXED, _UNMIXED = 3.0, 0.5  # of a line that holds a moment to a duration, and of one that does so no more
 _LIMIT = 0.3  # odds of a limit that mends alone: what is too slow by itself breaks other limits as well
+_UNNAMED, _WHOLE = 0.6, 2.0  # of a number without a name that something is computed with; of the 1.0 of a share
 _ARGUMENT = 1.0  # odds that who writes the name of a constant means no variable
 _EDGE = 2.0  # odds that few missions fail for a number, not for what is wrong in all of them
 
@@ -80,7 +92,7 @@ def is_loosening(edit: SmallEdit, site: EditSite) -> bool:
 def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     """How unlikely an edit is the repair; what takes a demand away altogether costs most."""
     form = _DROP if is_loosening(edit, site) else _form(edit, site, usage) + _structural(edit, usage)
-    form += _MIXED * mixes_times(edit, site)
+    form += _MIXED * mixes_times(edit, site) - usage.measure(edit, site)
     return form + _KINDS * math.log(max(usage.kinds[edit.kind], 1)) - _TWIN * usage.twins(edit, site)
 
 
@@ -108,6 +120,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
             far = 0.0 if site.named and float(edit.old) == 0.0 else octaves(edit)  # who names a number has one
             nothing = _NOTHING * (bool(site.named) and float(edit.old) == 0.0)
+            nothing -= _WHOLE * is_whole(edit, site) + _UNNAMED * is_of_formula(edit, site)
             nothing += _LIMIT * (usage.affinity.is_limit(site.named) and usage.is_freed(edit, site))
             return 1.0 - nothing + _OCTAVE * far + _DIGIT * (digits(edit.new) - digits(edit.old))
         case EditKind.ARGUMENTS if usage.directions.is_put_in_order(edit, site) or usage.siblings.completes(edit, site):
@@ -165,7 +178,7 @@ def delay_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         return _LATE
     if delay is None or edit.kind is EditKind.VALUE:  # what is asked once is not asked again
         return delay
-    return delay - _TWIN_SOON * usage.twins(edit, site)
+    return delay - _TWIN_SOON * usage.twins(edit, site) - _MEASURED_SOON * usage.measure(edit, site)
 
 
 def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
@@ -184,6 +197,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return _LATE
         case EditKind.LIMIT if (edit.begin, edit.new) in site.agreeing:
             return _KIN_SOON - 0.1 * usage.gain(edit, site)
+        case EditKind.LIMIT if usage.measure(edit, site) > 0.0 and not usage.strands(edit):
+            return _KIN_SOON
         case EditKind.LIMIT:
             return _KIN_SOON if usage.gain(edit, site) > 0.0 and not usage.strands(edit) else _LATE
         case EditKind.SIGN if edit.new not in SIGNED["sum"]:
@@ -249,15 +264,15 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.COMPARISON:
             return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
         case EditKind.CONSTANT:
-            if float(edit.new) <= 0.0 < float(edit.old):
+            if float(edit.new) <= 0.0 < float(edit.old) or is_whole(edit, site):
                 return _LATE
             way = usage.directions.of(edit, site)
-            between = _BETWEEN if way == 0 else 1.2  # too much may be as bad as too little
+            between = _BETWEEN if way == 0 else _OTHER_WAY  # too much may be as bad as too little
             if not is_farthest(edit, site):
                 return between if octaves(edit) >= 1.0 else None
             # A zero in a rule seldom stands for a number, nor does the 1 of a count: `next.k == k + 1`.
             is_telling = site.named or (float(edit.old) != 0.0 and not is_step(edit, site))
-            return 1.2 if way == (-1 if is_raised(edit) else 1) else -0.3 if is_telling else _BETWEEN
+            return _OTHER_WAY if way == (-1 if is_raised(edit) else 1) else -0.3 if is_telling else _BETWEEN
         case EditKind.OFF_BY_ONE:
             return 0.4 if abs(float(edit.old)) <= _FEW else None
 

@@ -33,6 +33,7 @@ _NAMESAKE = 0.2  # how much later a name is tried at each further line of a rule
 _CONFIRMED = 3  # causes that are tried on other missions too
 _KEPT = 0.3  # of the flights, at most, for that
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
+_PATCHED = 1.0  # what it counts that a mission passes after repairs alone
 _PROVEN = 0.15  # odds of a number that did before the failure what it is there for
 _UNTRIED = 0.3  # odds that a change helps in other missions, once it was tried in some
 _NEAR, _SEARCHED = 0.25, 0.5  # distance of what a conflict speaks of, and of what ruled out a choice of a search
@@ -142,6 +143,10 @@ class Missions:
     usual: frozenset[int] = frozenset()
     passing: float = 0.0
 
+    def is_patched(self, result: MissionResult) -> bool:
+        """Whether a mission that passes needed repairs, where those that passed before needed none."""
+        return result.losses.repaired > 0 and bool(self.passed) and not any(one.losses.repaired for one in self.passed)
+
     def is_evasive(self, result: MissionResult) -> bool:
         """Whether a mission lacks what happened in all missions that passed."""
         return result.outcome is not None and not self.usual.issubset(result.outcome.behaviour)
@@ -213,6 +218,7 @@ def try_out(
                 turns.doubt(site, None if is_probe(edit) else edit.begin)
             if result.verdict is Verdict.FAIL and is_farther(result, failed[0]):
                 turns.encourage(site)
+            turns.tire(site)
             if result.verdict is Verdict.FAIL and course_of(result) != course:
                 for other in between(edit, site):
                     turns.add(at + _LESS, candidate, other)
@@ -242,6 +248,7 @@ def try_out(
     confirmed: list[LineTrial] = []
     while ranked and sum(one.is_clean for one in confirmed) < _CONFIRMED:
         trial = ranked.pop(0)
+        trials.resume()  # what was kept for it is left
         confirmed.append(trials.confirmed(trial, helping[trial.candidate.site], usage))
     ranked = sorted([*confirmed, *ranked], key=lambda one: one.weight)
     ended = trials.ended or trials.cut or (TrialsEnd.FLIGHTS if turns else TrialsEnd.COMPLETE)
@@ -333,7 +340,7 @@ class _Trials:
     def read(self, candidate: Candidate, edit: SmallEdit, cost: float, result: MissionResult) -> LineTrial:
         """What a flight of the first failed mission tells that passes with an edit."""
         lost = sum(of(result, self.missions.failed[0]) for of in (strayed_of, collapsed_of, voided_of))
-        damage = lost + damage_of(result)
+        damage = lost + damage_of(result) + _PATCHED * self.missions.is_patched(result)
         return LineTrial(candidate, edit, damage, cost, is_evasive=self.missions.is_evasive(result))
 
     def confirmed(self, trial: LineTrial, helping: Sequence[LineTrial], usage: Usage) -> LineTrial:

@@ -6,14 +6,17 @@ failure as it was, to the last event, the line has no part in it. What was given
 """
 
 import heapq
+from collections import Counter
 from collections.abc import Callable, Collection
 from itertools import count
 
 from checker.counterfactual.candidates import Candidate
+from checker.counterfactual.word_odds import is_comparison_turned
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, inverse_of
 
 _BESIDE = 0.5  # how much of the wait is left for an edit of a line beside one that has helped
 _IDLE = 0.8  # how much later the edits of a line are tried that has no part in the failure
+_MOST_VAIN, _TIRED = 5, 0.1  # edits of one line in vain, and how much later the others are tried for each more
 _ENDLESS = 3.0  # how much later what may leave a search without an end, as it did elsewhere
 
 _COMPUTING = (EditKind.FORMULA, EditKind.OPERATOR, EditKind.SIGN)
@@ -28,7 +31,9 @@ class Turns:
         self._beside = beside
         self._queue: list[_Entry] = []
         self._order = count()
+        self._vain: Counter[EditSite] = Counter()
         self._favoured: set[EditSite] = set()
+        self._encouraged: set[EditSite] = set()
         self._doubted: set[tuple[EditSite, int | None]] = set()
 
     def __bool__(self) -> bool:
@@ -51,16 +56,23 @@ class Turns:
 
     def encourage(self, site: EditSite) -> None:
         """Try the other edits of a line sooner of which one let the mission come farther."""
-        self._hasten({site})
+        self._hasten({site} - self._encouraged)
+        self._encouraged.add(site)
 
     def doubt(self, site: EditSite, place: int | None) -> None:
         """Try what else may stand at a place of a line later; at any of its places where none is given.
 
-        But for a relation the other way round: a planner that is free may choose as it had to.
+        But for a relation or comparison the other way round: a planner that is free may choose as it had to.
         """
         if (site, place) not in self._doubted and (site, None) not in self._doubted:
             self._doubted.add((site, place))
             self._delay(_IDLE, lambda candidate, edit: candidate.site is site and _is_doubtful(edit, place))
+
+    def tire(self, site: EditSite) -> None:
+        """Try the other edits of a line later of which many were in vain: lines that were not tried have their turn."""
+        self._vain[site] += 1
+        if self._vain[site] > _MOST_VAIN:
+            self._delay(_TIRED, lambda candidate, _: candidate.site is site)
 
     def avoid(self, lost: SmallEdit) -> None:
         """Try what else writes a word later that left a flight without an end: it costs as much as many others."""
@@ -83,4 +95,5 @@ class Turns:
 def _is_doubtful(edit: SmallEdit, place: int | None) -> bool:
     if place is not None and edit.kind in _COMPUTING:  # a quotient is small where a product is large
         return False
-    return place in (None, edit.begin) and not (edit.kind is EditKind.RELATION and edit.new == inverse_of(edit.old))
+    is_turned = is_comparison_turned(edit) or (edit.kind is EditKind.RELATION and edit.new == inverse_of(edit.old))
+    return place in (None, edit.begin) and not is_turned

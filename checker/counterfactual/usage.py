@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from checker.counterfactual.affinity import WORD, Affinity, is_kin
 from checker.counterfactual.bounds import Directions
+from checker.counterfactual.dimensions import Dimensions
 from checker.counterfactual.formulas import Formulas
 from checker.counterfactual.mentions import Mentions, is_doubled
 from checker.counterfactual.moments import TimeLimits
@@ -29,6 +30,11 @@ _TURNED = 2.5  # odds of a relation of two named tokens that says the same with 
 _UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
 _SUM = 1.5  # how much the odds count of a sign that stands between the same words elsewhere
 _RARE = 0.3  # all other words
+# Odds of a change that puts the dimensions of a line right, and of one that makes them odd; other kinds tell nothing.
+_RIGHT = {EditKind.LIMIT: 3.0, EditKind.NAME: 1.5}
+_ODD = {EditKind.LIMIT: 2.0}
+_MEASURED = (EditKind.LIMIT, EditKind.NAME, EditKind.OPERATOR, EditKind.FORMULA, EditKind.TERM, EditKind.MISSING)
+_PUT_RIGHT, _MADE_ODD = 1.2, 1.0
 _LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
 
 
@@ -54,6 +60,7 @@ class Usage:
     orders: Orders
     siblings: Siblings
     limits: TimeLimits
+    dimensions: Dimensions
     passing: float = 0.0
 
     def is_swapped(self, edit: SmallEdit) -> bool:
@@ -120,6 +127,15 @@ class Usage:
         gain += _KINDRED * self.affinity.kindred(edit, site)
         return gain + _ALIKE * self.mentions.likeness(edit, site) + _DOUBLED * is_doubled(edit, site)
 
+    def measure(self, edit: SmallEdit, site: EditSite) -> float:
+        """How much likelier a change is by the dimensions of the line before and after; a range is no quantity."""
+        if edit.kind not in _MEASURED:
+            return 0.0
+        gain = self.dimensions.gain(edit, site) if edit.new not in self.sampled else -1
+        if gain > 0:
+            return _RIGHT.get(edit.kind, _PUT_RIGHT)
+        return -_ODD.get(edit.kind, _MADE_ODD) if gain < 0 else 0.0
+
     def is_fitting(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether a line asks for a name: by a constant that bears it, the same on the other side, or a sibling."""
         is_fit = self.affinity.kindred(edit, site) > 0 or self.mentions.likeness(edit, site) > 0.0
@@ -159,5 +175,7 @@ def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0, is_late: bool =
     mentions = Mentions(sites, named, counts)
     directions = Directions(sites, named, is_late=is_late)
     lines = (Formulas(sites, named), Orders(sites), Siblings(sites), TimeLimits(sites))
-    affinity = Affinity(sites, named)
-    return Usage(counts, named, kinds, meant, sampled, affinity, sums, mentions, directions, *lines, passing)
+    affinity, dimensions = Affinity(sites, named), Dimensions(sites, named)
+    return Usage(
+        counts, named, kinds, meant, sampled, affinity, sums, mentions, directions, *lines, dimensions, passing
+    )

@@ -88,6 +88,12 @@ def is_asked_for(edit: SmallEdit, wanted: str) -> bool:
     return bool(wanted) and sign_of(edit.new) == wanted and sign_of(edit.old)[:1] not in (wanted[:1], "=")
 
 
+def is_comparison_turned(edit: SmallEdit) -> bool:
+    """Whether an edit writes `<` or `<=` where `>` or `>=` stands, or the other way round."""
+    ways = {sign_of(one)[:1] for one in (edit.old, edit.new)}
+    return edit.kind is EditKind.COMPARISON and ways == {"<", ">"}
+
+
 def compared(text: str) -> str:
     """A comparison that is written as a call, with its sign: each operand stays where it stands in the line."""
     found = _NAMED.fullmatch(text)

@@ -364,7 +364,7 @@ class _Reader:
             case CallExpr(arguments=arguments) if len(arguments) > 1:
                 yield EditKind.ARGUMENTS, *exchanged(*arguments[:2])
             case NewExpr(arguments=arguments):
-                for first in range(min(len(arguments) - 1, 2)):
+                for first in range(len(arguments) - 1):
                     yield EditKind.ARGUMENTS, *exchanged(*arguments[first : first + 2])
             case _:
                 pass

@@ -107,6 +107,14 @@ def test_a_condition_without_else_is_not_uneven(tmp_path: Path, capsys: pytest.C
     assert all(one["claim"] != "uneven branches" for one in found)
 
 
+@pytest.mark.parametrize(("line", "told"), [("rest == 3;", ["rest"]), ("lower.slack == 3;", []), ("rest <= 3;", [])])
+def test_a_condition_without_else_leaves_a_variable_of_the_rule_open(
+    tmp_path: Path, line: str, told: list[str]
+) -> None:
+    rule = f"  int rest;\n  if (load == Load.heavy) {{\n    {line}\n  }}\n  duration == rest;\n"
+    assert uneven_in(tmp_path, rule) == told
+
+
 @pytest.mark.parametrize(
     ("line", "told"),
     [
@@ -129,7 +137,11 @@ def test_what_both_branches_hold_to_one_time_is_said_in_both(tmp_path: Path) -> 
 
 def uneven(folder: Path, line: str, other: str) -> list[str]:
     """What one branch sets, with a line in the first and another one in the second."""
-    rule = f"  if (load == Load.heavy) {{\n    {line}\n  }} else {{\n    {other}\n  }}\n"
+    return uneven_in(folder, f"  if (load == Load.heavy) {{\n    {line}\n  }} else {{\n    {other}\n  }}\n")
+
+
+def uneven_in(folder: Path, rule: str) -> list[str]:
+    """What one branch sets and the other does not, with other lines in place of those under the condition."""
     path = folder / "crane.nddl"
     path.write_text(MODEL.replace(MODEL[MODEL.index("  if (load") : MODEL.index("}\nCrane::Lower")], rule))
     graph = Dependence([compile_model(analyse_file(path))], sites_of(load_graph(path, ())))

@@ -24,6 +24,7 @@ int BED_SPACING = 4;
 int EACH = 16;
 int HEAD = 2;
 class Window { int opens; int closes; Window(int a, int b) { opens = a; closes = b; } }
+class Gap { int number; int opens; int closes; Gap(int n, int a, int b) { number = n; opens = a; closes = b; } }
 class Wind extends AgentTimeline {
   predicate Calm { int left; }
   predicate Gusty { int left; }
@@ -38,11 +39,16 @@ Cart::Drive {
   calm.left >= bed - plants;
   metres == plants * BED_SPACING;
   data == plants * HEAD + EACH;
+  metres <= 90;
+  data == ceil(1.3 * plants * (1.0 - 0.5 * bed));
 }
 Wind::Calm { duration == CALM; meets(object.Gusty g); }
 Window morning = new Window(10, 20);
 Window noon = new Window(40, 30);
 Window evening = new Window(50, 60);
+Gap first = new Gap(1, 5, 25);
+Gap second = new Gap(2, 45, 30);
+Gap third = new Gap(3, 50, 60);
 """
 
 
@@ -93,6 +99,29 @@ def test_an_object_that_is_made_the_other_way_round_is_seen_without_a_flight(sit
     usual = change(sites, "Window morning = new Window(10, 20);", EditKind.ARGUMENTS, "20, 10")
     assert usage.directions.is_put_in_order(*turned) and not usage.directions.is_put_in_order(*usual)
     assert delay_of(*turned, usage) == -1.0
+
+
+@pytest.mark.parametrize(("new", "is_right"), [("30, 45", True), ("45, 2", False)])
+def test_an_object_of_three_numbers_with_two_the_other_way_round_is_seen_too(
+    sites: list[EditSite], new: str, is_right: bool
+) -> None:
+    directions = usage_of(sites).directions
+    assert (
+        directions.is_put_in_order(*change(sites, "Gap second = new Gap(2, 45, 30);", EditKind.ARGUMENTS, new))
+        is is_right
+    )
+
+
+def test_a_number_of_a_formula_is_less_likely_wrong_than_a_limit_and_the_one_of_a_share_hardly(
+    sites: list[EditSite],
+) -> None:
+    usage, formula = usage_of(sites), "data == ceil(1.3 * plants * (1.0 - 0.5 * bed));"
+    costs = [
+        cost(sites, usage, line, EditKind.CONSTANT, new) for line, new in (("metres <= 90;", "180"), (formula, "2.6"))
+    ]
+    whole = change(sites, formula, EditKind.CONSTANT, "2.0")
+    assert costs[0] < costs[1] < cost_of(*whole, usage) - 1.0
+    assert delay_of(*whole, usage) == 3.0
 
 
 def test_what_others_are_to_lie_within_had_better_be_long(sites: list[EditSite]) -> None:

@@ -23,3 +23,21 @@ def test_a_doubtful_loose_end_comes_after_what_was_flown(doubt: float, first: Cl
     causes = rank(Trials((trial,), (tried,), 1, 4, TrialsEnd.COMPLETE, (loose,)), Path("/"))
     assert next(one.claim for one in causes.ranked) is first
     assert {one.claim for one in causes.ranked} == {Claim.PARTLY, Claim.LOOSE_END}
+
+
+def test_of_the_loose_ends_at_one_line_the_likeliest_is_told() -> None:
+    head = candidate(5, "T::P")
+    loose = Loose(head, "THIN", is_unread=True, doubt=1.0), Loose(head, "number", doubt=3.0)
+    causes = rank(Trials((), (), 1, 4, TrialsEnd.COMPLETE, loose), Path("/"))
+    assert [one.variable for one in causes.ranked] == ["THIN"]
+
+
+def test_beside_what_mends_a_parameter_that_few_lines_speak_of_is_not_told() -> None:
+    tried = candidate(3, "n <= 6;")
+    trial = LineTrial(tried, tried.site.edits[0], 0.0, 1.0)
+    loose = (
+        Loose(candidate(5, "contains(T.Q q);"), "q.n", doubt=1.0),
+        Loose(candidate(7, "T::R"), "THIN", is_unread=True),
+    )
+    causes = rank(Trials((trial,), (tried,), 1, 4, TrialsEnd.COMPLETE, loose), Path("/"))
+    assert [one.claim for one in causes.ranked] == [Claim.MENDS, Claim.UNREAD]

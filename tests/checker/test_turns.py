@@ -173,3 +173,31 @@ def test_goals_may_ask_for_what_others_ask_and_a_property_may_have_more_time(tmp
     assert agent_with(mission, mission.agent, by.edits[0]).properties[0].by == 200
     crates = next(site.edits[1] for site in known["asked", 0] if site.text.startswith("crates"))
     assert dict(agent_with(mission, mission.agent, crates).goals[0].parameters)["crates"] == 4.0
+
+
+def test_a_line_of_which_many_changes_were_in_vain_lets_others_have_their_turn() -> None:
+    one, other = candidate("one"), candidate("other")
+    turns = Turns(lambda _: ())
+    for at, each in ((0.5, one), (0.6, other)):
+        for edit in each.site.edits:
+            turns.add(at, each, edit)
+    for _ in range(5):
+        turns.tire(one.site)
+    assert order(turns)[0] == "one3"
+    turns = Turns(lambda _: ())
+    for at, each in ((0.5, one), (0.6, other)):
+        for edit in each.site.edits:
+            turns.add(at, each, edit)
+    for _ in range(7):
+        turns.tire(one.site)
+    assert order(turns) == ["other3", "other8", "one3", "one8"]
+
+
+def test_a_comparison_the_other_way_round_is_not_doubted_with_its_place() -> None:
+    edits = [SmallEdit(EditKind.COMPARISON, "a.nddl", 3, 4, "<", new, 1) for new in ("<=", ">")]
+    line = Candidate(EditSite("a.nddl", 1, 1, 1, "", (1, 1), "a < b;", tuple(edits)), 0.0, Suspicion.TRACE)
+    turns = Turns(lambda _: ())
+    for edit in edits:
+        turns.add(0.5, line, edit)
+    turns.doubt(line.site, None)
+    assert turns.pop()[2].new == ">"

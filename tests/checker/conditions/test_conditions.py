@@ -12,11 +12,12 @@ from checker.batch.result import MissionResult
 from checker.conditions.condition import Condition, Extreme, Feature, Literal, Share, axis_feature, holds
 from checker.conditions.find import claimed
 from checker.conditions.flights import Ended
-from checker.conditions.measure import Quality, measured_on
+from checker.conditions.measure import Quality, measured_on, parts_that_hold
 from checker.conditions.record import read_condition, write_condition
 from checker.conditions.rendering import condition_claim, condition_text
 from checker.conditions.rules import induce
-from checker.conditions.space import Space
+from checker.conditions.saddles import taken_apart
+from checker.conditions.space import Range, Space
 from checker.oracle import Judgement, Verdict
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.outcome import Draw, Outcome
@@ -217,3 +218,38 @@ def test_an_endless_range_is_that_of_what_was_drawn() -> None:
     ]
     (found,) = Space(agent, results).parameters
     assert (found.lower, found.upper, found.at(0.5)) == (-1.0, 3.0, 1.0)
+
+
+def _between(name: str, lower: float, upper: float) -> Range:
+    return Range(ParameterConfiguration(name, lower, upper), lower, upper)
+
+
+@pytest.mark.parametrize(
+    ("edge", "ranges", "limits"),
+    [
+        (-27.0, ((0.0, 0.5), (4.0, 20.0)), {"SNOW": 0.3, "HOOKING": 9.0}),  # (10 * SNOW - 3) * (HOOKING - 9) > 0
+        (-27.0, ((0.4, 0.5), (4.0, 20.0)), None),  # of which one part alone may be
+        (-10.0, ((0.0, 0.5), (4.0, 20.0)), None),  # far from the saddle
+    ],
+)
+def test_an_edge_through_a_saddle_is_taken_apart(
+    edge: float, ranges: tuple[tuple[float, float], ...], limits: dict[str, float] | None
+) -> None:
+    monomials = ((10.0, (("SNOW", 1), ("HOOKING", 1))), (-90.0, (("SNOW", 1),)), (-3.0, (("HOOKING", 1),)))
+    literal = Literal(Feature(monomials), True, edge)
+    found = taken_apart(
+        literal, [_between(name, *each) for name, each in zip(("SNOW", "HOOKING"), ranges, strict=True)]
+    )
+    if limits is None:
+        assert found == [literal]
+    else:
+        assert {one.feature.parameters[0]: round(one.edge, 1) for one in found} == limits
+
+
+def test_a_part_of_a_condition_that_fresh_missions_refute_is_dropped() -> None:
+    parts = ((Literal(axis_feature("P"), True, 0.8),), (Literal(axis_feature("Q"), True, 0.8),))
+    rows = [({"P": (0.9, 0.9), "Q": (0.1, 0.1)}, Ended.FAILS)] * 6 + [
+        ({"P": (0.1, 0.1), "Q": (0.9, 0.9)}, Ended.PASSES)
+    ] * 6
+    assert parts_that_hold(parts, measured_on(rows, parts)) == parts[:1]
+    assert parts_that_hold(parts, measured_on(rows[:8], parts)) == parts  # two missions tell nothing
