@@ -37,7 +37,9 @@ def _uneven(guard: Guard, rule: RuleCode, graph: Dependence) -> Iterator[str]:
                 yield name
         return
     for one, other in (branches, branches[::-1]):
-        own = {step.label for step in all_instructions(one) if isinstance(step, Child)}
+        steps = list(all_instructions(one))  # what a branch declares is its own
+        own = {step.label for step in steps if isinstance(step, Child)}
+        own |= {step.name for step in steps if isinstance(step, NewVariable)}
         there = _said([step.span for step in all_instructions(other)], graph)
         known = elsewhere | {name for name, _, same in there for name in (name, same)}
         for name, sign, same in _said([step.span for step in all_instructions(one)], graph):

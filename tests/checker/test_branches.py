@@ -135,6 +135,10 @@ def test_what_both_branches_hold_to_one_time_is_said_in_both(tmp_path: Path) -> 
     assert uneven(tmp_path, "lower.end == HEAVY_TIME;", "lower.start == end;") == ["lower.end", "lower.start"]
 
 
+def test_a_variable_that_a_branch_declares_is_its_own(tmp_path: Path) -> None:
+    assert uneven(tmp_path, "float rest; rest == 3.0; duration == ceil(rest);", "duration == 4;") == []
+
+
 def uneven(folder: Path, line: str, other: str) -> list[str]:
     """What one branch sets, with a line in the first and another one in the second."""
     return uneven_in(folder, f"  if (load == Load.heavy) {{\n    {line}\n  }} else {{\n    {other}\n  }}\n")
