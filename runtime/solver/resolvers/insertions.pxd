@@ -15,9 +15,9 @@ cpdef int list_insertions(Agenda agenda, Decisions stack, long long d, long long
 cpdef int _list_insertions_on(Agenda agenda, Decisions stack, long long d, long long t, long long o) except -1
 
 
-cpdef bint _is_for_goal(Agenda agenda, long long t) except -1
+cpdef long long _origin(Agenda agenda, long long t) except -1
 
-@cython.locals(before="long long", theirs="long long", begin=double, free=double, is_asked=bint, is_child=bint, is_sent=bint)
+@cython.locals(before="long long", theirs="long long", begin=double, free=double, is_child=bint, is_first=bint, is_sent=bint)
 cpdef int _list_behind_goals(Agenda agenda, Decisions stack, long long start, long long t) except -1
 
 cpdef long long _first_apart(Agenda agenda, Reach reach, long long time, long long count, bint is_reversed) except? -1

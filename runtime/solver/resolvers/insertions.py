@@ -59,11 +59,11 @@ def _list_insertions_on(agenda: Agenda, stack: Decisions, d: int, t: int, o: int
     return 0
 
 
-def _is_for_goal(agenda: Agenda, t: int) -> bool:
-    """Whether a token is a goal, or goes back to one, rule by rule."""
+def _origin(agenda: Agenda, t: int) -> int:
+    """The token that a token goes back to, rule by rule."""
     while agenda.rows.parent[t] >= 0:
         t = agenda.rows.parent[t]
-    return (agenda.rows.flags[t] & FLAG_GOAL) != 0
+    return t
 
 
 def _list_behind_goals(agenda: Agenda, stack: Decisions, start: int, t: int) -> None:
@@ -71,12 +71,14 @@ def _list_behind_goals(agenda: Agenda, stack: Decisions, start: int, t: int) -> 
 
     A goal that asked for no later start but waits for such goals comes before `t`, too: equals keep their order. Then
     come the later ones, and the earlier ones from right to left. Who plans for an executive keeps goals from waiting by
-    this; otherwise the order is EUROPA's, from left to right. So is that of what a goal asks for, but behind what
+    this; otherwise the order is EUROPA's, from left to right. So is that among what one goal asks for, but behind what
     owners were asked for before: they carry that out in this order.
     """
     engine = agenda.engine
-    is_child = agenda.rows.parent[t] >= 0 and _is_for_goal(agenda, t)
+    origin = _origin(agenda, t)
+    is_child = origin != t and (agenda.rows.flags[origin] & FLAG_GOAL) != 0
     mine = agenda.rows.var0[t] + START
+    asked = agenda.rows.var0[origin] + START if is_child else mine
     end = stack.pool_used
     first = start
     free = engine.lb[mine]  # from when on `t` has the timeline, behind all of these
@@ -88,11 +90,16 @@ def _list_behind_goals(agenda: Agenda, stack: Decisions, start: int, t: int) -> 
         after = stack.pool_after[at]
         theirs = agenda.rows.var0[after]
         begin = engine.lb[theirs + START]
+        asker = _origin(agenda, after)
         is_sent = (agenda.rows.flags[after] & FLAG_SENT) != 0
-        if begin > free or not (is_sent if is_child else _is_for_goal(agenda, after)):
+        if begin > free or not (is_sent or agenda.rows.flags[asker] & FLAG_GOAL):
             continue
-        is_asked = agenda.rows.flags[after] & FLAG_GOAL and engine.base_lower(theirs + START) <= engine.lb[mine]
-        if is_sent or is_asked or begin <= engine.lb[mine]:
+        if is_child:
+            is_first = asker != origin and engine.base_lower(agenda.rows.var0[asker] + START) <= engine.lb[asked]
+        else:
+            is_first = after == asker and engine.base_lower(theirs + START) <= engine.lb[asked]
+            is_first = is_first or begin <= engine.lb[mine]
+        if is_first or is_sent:
             first = at + 1
             free = max(free, engine.lb[theirs + END])
     if first > start:
