@@ -5,11 +5,12 @@ they are. So what the vehicle did then meets the rules as they are now, and a fa
 """
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from checker.conditions.space import fixed
 from checker.judge.trace_reading import read_events
 from checker.mission import Mission
 from runtime.executive.configuration import CodeConfiguration, ReactorConfiguration
@@ -32,8 +33,8 @@ class ReactorLog:
 class MissionLog:
     """All that is on record of a mission. Floats are rounded to `step`.
 
-    `ends` is the last tick on record, None where it only tells when something happened last. `cut_off` names logs that
-    break off.
+    `seed` and `values` are those of a trace that says of which flight it is. `ends` is the last tick on record, None
+    where it only tells when something happened last. `cut_off` names logs that break off.
     """
 
     reactors: tuple[ReactorLog, ...]
@@ -42,6 +43,8 @@ class MissionLog:
     step: float
     ends: int | None
     cut_off: tuple[str, ...]
+    seed: int | None = None
+    values: tuple[tuple[str, float], ...] = ()
 
     @property
     def timelines(self) -> tuple[str, ...]:
@@ -59,7 +62,8 @@ def read_mission_log(path: Path) -> MissionLog:
     """Read a log, all logs of a directory, or a trace; raises OSError, or ValueError with what is wrong."""
     if not is_log(path):
         events = read_events(path.read_text(encoding="utf-8"))
-        return MissionLog(_in_trace(path, events), tuple(events), _last(events), 0.0, None, ())
+        seed, values = _flight_of(events)
+        return MissionLog(_in_trace(path, events), tuple(events), _last(events), 0.0, None, (), seed, values)
     files = sorted(path.glob(f"*{SUFFIX}")) if path.is_dir() else [path]
     logs = [(file, _log(file)) for file in files]
     events = sorted((event for _, log in logs for event in log.events), key=lambda event: int(event["tick"]))
@@ -77,6 +81,15 @@ def _log(file: Path) -> TransactionLog:
         raise ValueError(f"{file.name}, {problem}") from None
 
 
+def _flight_of(events: Sequence[Mapping[str, Any]]) -> tuple[int | None, tuple[tuple[str, float], ...]]:
+    """The seed and the values given to parameters, where a trace begins with them; None and none elsewhere."""
+    head = events[0] if events else {}
+    seed, values = head.get("seed"), head.get("values")
+    if head.get("kind") != "mission" or not isinstance(seed, int) or not isinstance(values, dict):
+        return None, ()
+    return seed, tuple((str(name), float(value)) for name, value in values.items() if isinstance(value, int | float))
+
+
 def _in_trace(path: Path, events: Iterable[Mapping[str, Any]]) -> tuple[ReactorLog, ...]:
     """The reactors of a trace, with the timelines on which they published."""
     found: dict[str, dict[str, None]] = {}
@@ -91,7 +104,10 @@ def _last(events: Iterable[Mapping[str, Any]]) -> int:
 
 
 def with_players(mission: Mission, log: MissionLog) -> tuple[Mission, dict[str, ReactorLog]]:
-    """The mission with players for the reactors that ask nobody and have a log, and the logs of the others by name."""
+    """The mission with players for the reactors that ask nobody and have a log, and the logs of the others by name.
+
+    Parameters to which the log's flight gave values have these.
+    """
     agent = mission.agent
     played: dict[str, CodeConfiguration] = {}
     others: dict[str, ReactorLog] = {}
@@ -105,7 +121,7 @@ def with_players(mission: Mission, log: MissionLog) -> tuple[Mission, dict[str, 
     reactors = tuple(each for each in agent.reactors if each.name not in played)
     coded = (*(each for each in agent.coded if each.name not in played), *played.values())
     final = agent.final_tick if log.ends is None else min(agent.final_tick, log.ends)
-    changed = replace(agent, reactors=reactors, coded=coded, final_tick=final)
+    changed = fixed(replace(agent, reactors=reactors, coded=coded, final_tick=final), dict(log.values))
     return replace(mission, agent=changed, check=replace(mission.check, missions=1)), others
 
 

@@ -19,8 +19,9 @@ _NEVER = 2**62
 _MOST_CAUSES = 3
 _NOBODY: frozenset[int] = frozenset()
 _SYS = vars(sys)
-_NAMED = ("symbol", "string", "object")  # kinds whose values are written as texts
-_Kinds = Callable[[str, str], "Mapping[str, tuple[str, str]] | None"]  # timeline, predicate: parameters; None: unknown
+_NAMED = ("symbol", "enum", "string", "object")  # kinds whose values are written as texts
+_Kind = tuple[str, str, tuple[str, ...]]  # of a parameter: its kind and type, and the values of an enum
+_Kinds = Callable[[str, str], "Mapping[str, _Kind] | None"]  # timeline, predicate: parameters; None: unknown
 
 
 class CodedReactor(TeleoReactor):
@@ -283,7 +284,7 @@ def _shown(domain: DomainConstant) -> Argument:
     return values[0] if len(values) == 1 else frozenset(values)
 
 
-def _domain(name: str, value: object, kind: tuple[str, str] | None) -> DomainConstant:
+def _domain(name: str, value: object, kind: _Kind | None) -> DomainConstant:
     """What users say of an argument, as a domain; ValueError for what is none, or of another type than models have."""
     if isinstance(value, tuple) and len(value) == 2:
         lower, upper = _number(name, value[0]), _number(name, value[1])
@@ -303,11 +304,15 @@ def _domain(name: str, value: object, kind: tuple[str, str] | None) -> DomainCon
     return make_domain(*found, (exact, exact), None)
 
 
-def _typed(name: str, value: object, kind: tuple[str, str] | None, kinds: tuple[str, ...]) -> tuple[str, str]:
+def _typed(name: str, value: object, kind: _Kind | None, kinds: tuple[str, ...]) -> tuple[str, str]:
     """The kind and type of a parameter, which must be one of `kinds`; the first of them where no model tells it."""
-    if kind is not None and kind[0] not in kinds:
-        raise ValueError(f"`{name}` is {value!r}, which is no {kind[1]}")
-    return kind or (kinds[0], kinds[0])
+    if kind is None:
+        return (kinds[0], kinds[0])
+    given = value if isinstance(value, frozenset) else (value,)
+    if kind[0] not in kinds or (kind[2] and not set(kind[2]).issuperset(given)):
+        known = f" ({', '.join(kind[2])})" if kind[2] else ""
+        raise ValueError(f"`{name}` is {value!r}, which is no {kind[1]}{known}")
+    return kind[:2]
 
 
 def _number(name: str, value: object) -> float:

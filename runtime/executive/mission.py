@@ -246,13 +246,17 @@ def _goal_kinds(
     configuration: AgentConfiguration, programs: MissionPrograms, goal: GoalConfiguration
 ) -> Mapping[str, tuple[str, str]]:
     """Kind and type name of each parameter of a goal's predicate, in the model of the timeline's owner."""
-    return _parameter_kinds(configuration, programs, goal.timeline, goal.predicate) or {}
+    kinds = _parameter_kinds(configuration, programs, goal.timeline, goal.predicate) or {}
+    return {name: (kind, type_name) for name, (kind, type_name, _) in kinds.items()}
 
 
 def _parameter_kinds(
     configuration: AgentConfiguration, programs: MissionPrograms, timeline: str, predicate: str
-) -> Mapping[str, tuple[str, str]] | None:
-    """Kind and type name of each parameter of a predicate, as the owner of its timeline, or else a user, has them."""
+) -> Mapping[str, tuple[str, str, tuple[str, ...]]] | None:
+    """Kind, type name and names of the values of each parameter of a predicate; only enums name their values.
+
+    They are those of the owner of the timeline, or else of a user.
+    """
     pairs = list(zip(configuration.reactors, programs.programs, strict=True))
     owners = [program for reactor, program in pairs if timeline in reactor.internal]
     users = [program for reactor, program in pairs if timeline in reactor.external]
@@ -261,7 +265,12 @@ def _parameter_kinds(
         wanted = f"{classes.get(timeline, '')}.{predicate}"
         for each in program.predicates:
             if each.name == wanted:
-                return {p.name: (p.type.kind, p.type.type_name) for p in each.parameters}
+                enums = dict(program.enums)
+                types = {parameter.name: parameter.type for parameter in each.parameters}
+                return {
+                    name: (type_.kind, type_.type_name, enums.get(type_.type_name, ()) if type_.kind == "enum" else ())
+                    for name, type_ in types.items()
+                }
     return None
 
 

@@ -5,17 +5,25 @@ from pathlib import Path
 
 import pytest
 
+from checker.logged import read_mission_log
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.one_flight import FlightSettings, first_departure, fly, read_trace, trace_text
 from checker.oracle import judge
 from checker.pinned import pinned
+from nddlc.main import run
 from runtime.executive.outcome import EventKind, Outcome
 from tests.executive.flying import history, lines
 
 CLASSES = """#include "TREX.nddl"
 class Lamp extends AgentTimeline { predicate Off { } predicate On { int n; } Lamp(Mode m) { super(m, "Off"); } }
-class Eye extends AgentTimeline { predicate Dark { } predicate Bright { float p; } Eye(Mode m) { super(m, "Dark"); } }
+enum Hue { red, green }
+class Eye extends AgentTimeline {
+    predicate Dark { }
+    predicate Bright { float p; }
+    predicate Hued { Hue hue; }
+    Eye(Mode m) { super(m, "Dark"); }
+}
 """
 OWNER = f"{CLASSES}Lamp::On {{ duration == 5; }} Lamp lamp = new Lamp(Internal); close();"
 USER = f"{CLASSES}Eye eye = new Eye(Observe); close();"
@@ -89,6 +97,20 @@ class Sleeps(Reactor):
         else:
             now.publish("eye", "Bright", p=float(now.tick + 100 * len(now.news) + now.seen["lamp"].since))
 
+class Hues(Reactor):
+    def tick(self, now):
+        now.publish("eye", "Hued", hue=("red", "green")[now.tick % 2])
+
+class Blue(Reactor):
+    def tick(self, now):
+        now.publish("eye", "Hued", hue="blue")
+
+class Dice(Reactor):
+    wakes_on = ("lamp",)
+
+    def tick(self, now):
+        now.publish("eye", "Bright", p=float(self.settings["seed"]))
+
 class Deaf(Reactor):
     wakes_on = ("ear",)
 
@@ -139,7 +161,7 @@ def test_it_sleeps_through_what_it_does_not_want_to_be_woken_by(folder: Path) ->
 
 @pytest.mark.parametrize(
     ("name", "code", "tick"),
-    [(name, "F9", 0) for name in ("Foreign", "Odd", "Deaf", "Generator", "Large")] + [("Raises", "F7", 4)],
+    [(name, "F9", 0) for name in ("Foreign", "Odd", "Deaf", "Generator", "Large", "Blue")] + [("Raises", "F7", 4)],
 )
 def test_what_it_does_wrong_ends_it(folder: Path, name: str, code: str, tick: int) -> None:
     outcome = flown(folder, f"code.py:{name}")
@@ -161,9 +183,29 @@ def test_what_does_not_come_back_is_stopped(folder: Path) -> None:
     assert "did not come back" in outcome.abort.reason.message
 
 
-def test_a_log_player_does_what_was_done(folder: Path) -> None:
+def test_a_name_that_its_enum_does_not_have_is_told(folder: Path) -> None:
+    abort = flown(folder, "code.py:Blue").abort
+    assert abort is not None and "`hue` is 'blue', which is no Hue (red, green)" in abort.reason.message
+
+
+def test_a_trace_is_explained_by_the_seed_of_its_flight(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     path = folder / "mission.toml"
-    path.write_text(MISSION.format(code="code.py:Eye", on_failure="abort_agent"))
+    path.write_text(MISSION.format(code="code.py:Dice", on_failure="abort_agent"))
+    monkeypatch.chdir(folder)
+    assert run(["run", "--seed", "77", "--trace", "sea.jsonl"]) == 0
+    assert read_mission_log(folder / "sea.jsonl").seed == 77
+    capsys.readouterr()
+    run(["explain", "sea.jsonl", "--mission", "mission.toml"])
+    told = capsys.readouterr().out
+    assert "played from the log: sim" in told and "departs" not in told
+
+
+@pytest.mark.parametrize("name", ["Eye", "Hues"])
+def test_a_log_player_does_what_was_done(folder: Path, name: str) -> None:
+    path = folder / "mission.toml"
+    path.write_text(MISSION.format(code=f"code.py:{name}", on_failure="abort_agent"))
     mission, _ = read_mission(path)
     assert mission is not None
     flight = fly(mission, load_models(mission), FlightSettings(1, {}))
