@@ -13,8 +13,9 @@ NO_FILE = Code("NDDL708", Severity.ERROR, "include", "there is no file `{path}`"
 TWICE = Code("NDDL709", Severity.ERROR, "duplicate", "{what} `{name}` is there twice")
 NO_OWNER = Code("NDDL710", Severity.ERROR, "name", "no reactor owns the timeline `{timeline}`")
 CYCLE = Code("NDDL711", Severity.ERROR, "rule", "the reactors use each other in a cycle: {cycle}")
+# A warning, as T-REX refuses such a goal and flies on.
 NO_GOALS = Code(
-    "NDDL712", Severity.ERROR, "rule", "`{timeline}` takes no goals: its owner `{reactor}` has a lookahead of 0"
+    "NDDL712", Severity.WARNING, "rule", "`{timeline}` takes no goals: its owner `{reactor}` has a lookahead of 0"
 )
 ILL_DISTRIBUTION = Code("NDDL713", Severity.ERROR, "domain", "{reason}")
 UNUSED_PARAMETER = Code("NDDL714", Severity.ERROR, "name", "no model samples a parameter `{name}`")

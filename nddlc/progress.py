@@ -12,6 +12,7 @@ from rich.progress import Progress as Bar
 from checker.batch.progress import Progress
 from checker.report.sentences import percent
 from checker.statistics import confidence_sequence
+from nddlc.fitting import columns, fitted
 from nddlc.seeking import BAR_SECONDS, LINE_SECONDS
 
 
@@ -43,7 +44,7 @@ class Display:
         self._shown = now
         text = _progress_text(progress, self._confidence)
         if self._bar is None:
-            click.echo(text, err=True)
+            click.echo(fitted(text, columns()), err=True)
         else:
             task = self._bar.task_ids[0]
             self._bar.update(task, total=progress.planned, completed=progress.done, description=text, refresh=True)

@@ -5,9 +5,13 @@ from pathlib import Path
 import pytest
 
 from checker.mission import Mission, parse_mission, read_mission
+from checker.models import load_models
+from checker.pinned import pinned
+from nddl_lang.text.diagnostic import Severity
 from nddl_lang.text.source import Source
 from nddl_lang.text.toml_places import find_places
 from runtime.executive.configuration import ParameterConfiguration
+from runtime.executive.outcome import EventKind
 
 GPS = Path("models/gps")
 HEAD = """\
@@ -261,9 +265,14 @@ def test_reactors_that_use_each_other_are_refused() -> None:
     assert [(code, said) for _, _, code, said, _ in complaints(text)] == [("NDDL711", message)]
 
 
-def test_a_leaf_without_lookahead_takes_no_goals() -> None:
-    text = HEAD + "lookahead = 0\n[[goal]]\ntimeline = 'gps'\npredicate = 'Active'\n"
-    assert [code for _, _, code, _, _ in complaints(text)] == ["NDDL712"]
+def test_a_goal_for_an_owner_without_lookahead_is_told_and_refused_in_flight() -> None:
+    text = (GPS / "mission.toml").read_text().replace("lookahead = 900", "lookahead = 0")
+    mission, found = parse_mission(Source("m.toml", text), GPS)
+    assert mission is not None
+    assert {(one.code.id, one.severity) for one in found} == {("NDDL712", Severity.WARNING)}
+    outcome = pinned(load_models(mission))(mission.agent)(1)
+    refused = [(event.tick, event.timeline) for event in outcome.events if event.kind is EventKind.REFUSE]
+    assert refused == [(0, "nav"), (0, "nav")] and outcome.abort is None
 
 
 def test_places_survive_every_way_to_write_toml() -> None:
