@@ -130,7 +130,7 @@ MISSION_PAGES = (
     RulePage(
         NO_GOALS,
         "A goal is for a timeline whose owner does not plan ahead.",
-        "A reactor with a lookahead of 0 only reacts: the goal is refused at once, and the mission flies on without it.",
+        "A reactor with a lookahead of 0 only reacts: the goal is refused at once, and the mission flies on.",
         '[[reactor]]\nname = "navigator"\nmodel = "navigator.nddl"\nlatency = 2\n'
         'lookahead = 0\ninternal = ["nav"]\n\n[[goal]]\ntimeline = "nav"\n'
         'predicate = "Transit"\n',
