@@ -9,7 +9,7 @@ from checker.controllability.dynamic import offending_cycle
 from checker.controllability.static import is_strongly_controllable, is_weakly_controllable
 from checker.excerpts import Excerpts
 from checker.mission import LARGEST_SEED
-from checker.proofs.rendering import control_data, control_lines
+from checker.proofs.rendering import Answer, control_data, control_lines
 from checker.proofs.uncertain import plan_networks, requests_flown
 from nddl_lang.text.values import json_text
 from nddlc.certify import certifier_of
@@ -29,8 +29,9 @@ def command(path: str | None, seed: int | None, style: str, is_trusted: bool) ->
     A flight that passes gives the plan of each reactor: tokens, order, relations. What the reactor asks others for is
     uncertain, between the least and the greatest duration over the box of the sampled parameters, as far as the lines
     tell that this flight used, and as flights at the corners of the box and at drawn points show it. The plan is
-    dynamically controllable if some strategy keeps all demands that only knows what has happened. Ends with 0 if all
-    plans are, with 1 if one is not, with 2 if it cannot be told.
+    dynamically controllable if some strategy keeps all demands that only knows what has happened. It is not if none
+    does for durations that flights have shown. Ends with 0 if all plans are, with 1 if one is not, with 2 if it cannot
+    be told.
     """
     _, mission, models = prepare(mission_here(path), is_trusted=is_trusted)
     certifier = certifier_of(mission, models, mission.check.seed if seed is None else seed)
@@ -43,11 +44,13 @@ def command(path: str | None, seed: int | None, style: str, is_trusted: bool) ->
     flights = [requests_flown(models.agent, each) for each in certifier.records_over_the_box()]
     for plan in plan_networks(certifier.structures[0], certifier.dated[0], certifier.ranges(), flights):
         cycle = offending_cycle(plan.network)
+        is_shown = cycle is not None and offending_cycle(plan.as_shown()) is not None
         is_strong = cycle is None and is_strongly_controllable(plan.network)
         is_weak = cycle is None or is_weakly_controllable(plan.network)
-        verdicts.add(1 if cycle is not None else 2 if plan.endless else 0)
-        lines += control_lines(mission.agent.name, plan, cycle, excerpts, is_strong=is_strong, is_weak=is_weak)
-        answers.append(control_data(plan, cycle, excerpts, is_strong=is_strong, is_weak=is_weak))
+        verdicts.add(1 if is_shown else 2 if plan.endless or cycle is not None else 0)
+        answer = Answer(cycle, is_shown=is_shown, is_strong=is_strong, is_weak=is_weak)
+        lines += control_lines(mission.agent.name, plan, answer, excerpts)
+        answers.append(control_data(plan, answer, excerpts))
     if not answers:
         lines.append(f"{mission.agent.name}: no reactor asks another for anything: nothing is uncertain")
     click.echo(json_text(answers) if style == "json" else "\n".join(lines))

@@ -63,6 +63,27 @@ class Ranges:
             self._kept.append(number)
         return known
 
+    def is_attained(self, number: Number) -> bool:
+        """Whether the range of a number is told exactly: no variable occurs in it twice, and no condition is open."""
+        seen: set[str] = set()
+        waiting = [number]
+        while waiting:
+            one = waiting.pop()
+            name = name_of(one)
+            if name in seen:
+                return False
+            if name:
+                seen.add(name)
+            elif one.decl().kind() == z3.Z3_OP_ITE:
+                condition, *branches = one.children()
+                answer = self.holds(condition)
+                if answer is None:
+                    return False
+                waiting.append(branches[0 if answer else 1])
+            else:
+                waiting += one.children()
+        return True
+
     def _range(self, number: Number) -> Interval:
         if z3.is_int_value(number):
             return (Fraction(number.as_long()),) * 2

@@ -1,5 +1,6 @@
 """A certificate in, its words and its plain data out: what is proved, for what, and what is not."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -135,28 +136,42 @@ def _point(point: Point | None) -> str:
     return ", ".join(f"{name} = {number(value)}" for name, value in (point or {}).items()) or "the mission"
 
 
-def control_lines(
-    name: str,
-    plan: PlanNetwork,
-    cycle: tuple[object, ...] | None,
-    excerpts: Excerpts,
-    *,
-    is_strong: bool,
-    is_weak: bool | None,
-) -> list[str]:
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """Whether a plan is controllable: the cycle that no strategy keeps, None if one does all.
+
+    `is_shown`: nor does one keep it where all takes as long as flights have shown. `is_weak` is None if not known.
+    """
+
+    cycle: tuple[object, ...] | None
+    is_shown: bool
+    is_strong: bool
+    is_weak: bool | None
+
+    @property
+    def is_reckoned(self) -> bool:
+        """Whether only durations that no flight has shown are in the way."""
+        return self.cycle is not None and not self.is_shown
+
+
+def control_lines(name: str, plan: PlanNetwork, answer: Answer, excerpts: Excerpts) -> list[str]:
     """What is said of one reactor's plan."""
-    if cycle is None and plan.endless:
+    cycle = answer.cycle
+    if (cycle is None and plan.endless) or answer.is_reckoned:
         lines = [f"{name}, plan of {plan.reactor}: whether it is controllable is not known"]
     else:
-        answer = "dynamically controllable" if cycle is None else "not dynamically controllable"
-        lines = [f"{name}, plan of {plan.reactor}: {answer}; {_static(is_strong, is_weak)}"]
-    lines.append("  the vehicle decides:")
-    lines += [f"    {_taken(each)}" for each in plan.durations]
+        said = "dynamically controllable" if cycle is None else "not dynamically controllable"
+        lines = [f"{name}, plan of {plan.reactor}: {said}; {_static(answer.is_strong, answer.is_weak)}"]
+    lines.append("  the vehicle decides:" if not answer.is_reckoned else "  others decide, at most as the lines tell:")
+    lines += [f"    {_taken(each)}{_shown(each) if answer.is_reckoned else ''}" for each in plan.durations]
     lines += [f"    {each}: for how long is not known" for each in plan.endless]
     if plan.left_out:
         lines.append(f"  {plan.left_out} demands are no distances between times, and are left out")
     if cycle is not None:
-        lines.append("  no strategy keeps all of these:")
+        if answer.is_reckoned:
+            lines.append("  some strategy does where all takes as long as in flights; none keeps all of these:")
+        else:
+            lines.append("  no strategy keeps all of these:")
         for each in _cycle(cycle):
             match each:
                 case VehicleDuration():
@@ -172,6 +187,12 @@ def control_lines(
 def _taken(each: VehicleDuration) -> str:
     after = f"ends {each.lower} to {each.upper} after the end of {each.after}"
     return f"{each.token} {after if each.after else f'takes {each.lower} to {each.upper}'}"
+
+
+def _shown(each: VehicleDuration) -> str:
+    """How long it took in flights, where the lines tell more."""
+    lower, upper = each.shown
+    return "" if (lower, upper) == (each.lower, each.upper) else f" ({lower} to {upper} in flights)"
 
 
 def _cycle(cycle: tuple[object, ...]) -> list[object]:
@@ -201,18 +222,22 @@ def _known(holds: bool | None, plan: PlanNetwork) -> bool | None:
     return None if plan.endless and holds else holds
 
 
-def control_data(
-    plan: PlanNetwork, cycle: tuple[object, ...] | None, excerpts: Excerpts, *, is_strong: bool, is_weak: bool | None
-) -> dict[str, Any]:
+def control_data(plan: PlanNetwork, answer: Answer, excerpts: Excerpts) -> dict[str, Any]:
     """The same as data."""
-    spans = [each.span for each in _cycle(cycle or ()) if isinstance(each, Demand) and each.span is not None]
+    spans = [each.span for each in _cycle(answer.cycle or ()) if isinstance(each, Demand) and each.span is not None]
     return {
         "reactor": plan.reactor,
-        "dynamic": _known(cycle is None, plan),
-        "strong": _known(is_strong, plan),
-        "weak": _known(is_weak, plan),
+        "dynamic": None if answer.is_reckoned else _known(answer.cycle is None, plan),
+        "strong": None if answer.is_reckoned else _known(answer.is_strong, plan),
+        "weak": None if answer.is_reckoned else _known(answer.is_weak, plan),
         "durations": [
-            {"token": each.token, "between": [each.lower, each.upper], "after": each.after} for each in plan.durations
+            {
+                "token": each.token,
+                "between": [each.lower, each.upper],
+                "after": each.after,
+                "in_flights": list(each.shown),
+            }
+            for each in plan.durations
         ],
         "not_known": list(plan.endless),
         "left_out": plan.left_out,

@@ -6,9 +6,10 @@ flight shows one branch of the owner's rules: what other flights show beside it 
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil, floor, isinf
+from typing import NamedTuple
 
 import z3
 
@@ -29,12 +30,17 @@ _LENGTH = ".duration"
 
 @dataclass(frozen=True, slots=True)
 class VehicleDuration:
-    """A token of another reactor, and how long it may take; `after`: from the end of that token on."""
+    """A token of another reactor, and how long it may take; `after`: from the end of that token on.
+
+    `shown` is how long it took in flights, or at least took in those that ended before it did, and what the lines tell
+    exactly: between these no value of a parameter is needed twice.
+    """
 
     token: str
     lower: int
     upper: int
     after: str = ""
+    shown: tuple[int, int] = (0, 0)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -50,21 +56,41 @@ class PlanNetwork:
     left_out: int
     endless: tuple[str, ...] = ()
 
+    def as_shown(self) -> UncertainNetwork:
+        """The network where all takes only as long as flights have shown."""
+        return replace(self.network, links=[_as_shown(link) for link in self.network.links])
+
+
+def _as_shown(link: ContingentLink) -> ContingentLink:
+    taken = link.why
+    assert isinstance(taken, VehicleDuration)
+    lower, upper = taken.shown
+    return replace(link, lower=max(lower, link.lower), upper=min(max(lower, upper), link.upper))
+
+
+class Spell(NamedTuple):
+    """When what was asked for began and ends; where that is not known, the first tick after the flight."""
+
+    start: int
+    end: int
+    is_known: bool
+
 
 _Request = tuple[str, str, int]  # reactor, predicate, the how manieth of its kind
-Flown = Mapping[_Request, tuple[int, int]]  # when requests began and ended
+Flown = Mapping[_Request, Spell]
 
 
 def requests_flown(agent: AgentConfiguration, record: MissionRecord) -> Flown:
-    """When the owners of what reactors asked for began and ended it, as far as it ended."""
+    """When the owners of what reactors asked for began and ended it."""
     owners = {name: each.name for each in agent.reactors for name in each.internal}
-    done = {
-        (reactor.reactor, str(each.object), each.start): each.end
-        for reactor in record.reactors
-        for each in reactor.tokens
-        if each.state == "active" and isinstance(each.end, int)
-    }
-    found: dict[_Request, tuple[int, int]] = {}
+    done: dict[tuple[str, str, int], Spell] = {}
+    for reactor in record.reactors:
+        for each in reactor.tokens:
+            if each.state == "active" and isinstance(each.start, int) and each.start <= reactor.last_tick:
+                is_known = isinstance(each.end, int)  # by its owner, though the flight may have ended before
+                end = each.end if isinstance(each.end, int) else reactor.last_tick + 1
+                done[reactor.reactor, str(each.object), each.start] = Spell(each.start, end, is_known)
+    found: dict[_Request, Spell] = {}
     for configuration, reactor in zip(agent.reactors, record.reactors, strict=True):
         asked = [
             (token.start, token.predicate, str(token.object))
@@ -73,9 +99,9 @@ def requests_flown(agent: AgentConfiguration, record: MissionRecord) -> Flown:
             if token.state == "active" and isinstance(token.start, int)
         ]
         for request, start, line in _numbered(configuration.name, asked):
-            end = done.get((owners.get(line, ""), line, start))
-            if end is not None:
-                found[request] = (start, end)
+            spell = done.get((owners.get(line, ""), line, start))
+            if spell is not None:
+                found[request] = spell
     return found
 
 
@@ -157,15 +183,21 @@ class _Builder:
             origin = source + point
             if origin not in self.known:
                 continue
-            lower, upper = self.ranges.range(z3.simplify(end - self.known[origin]))
+            length = z3.simplify(end - self.known[origin])
+            lower, upper = self.ranges.range(length)
             if isinf(lower) or isinf(upper):
                 continue
             seen = list(self._seen(variable, source, point))
-            lower, upper = min([lower, *seen]), max([upper, *seen])
+            whole = [taken for taken, is_known in seen if is_known]
+            lower, upper = min([lower, *whole]), max([upper, *whole])
             if lower < 0:
                 continue
+            own = self._flown(variable + ".end") - self._flown(origin)
+            shown = min([own, *whole]), max([own, *(taken for taken, _ in seen)])
+            if self.ranges.is_attained(length):
+                shown = min(shown[0], ceil(lower)), max(shown[1], floor(upper))
             if best is None or upper - lower < best[0]:
-                best = (upper - lower, origin, VehicleDuration(name, ceil(lower), floor(upper), label))
+                best = (upper - lower, origin, VehicleDuration(name, ceil(lower), floor(upper), label, shown))
         if best is None:
             return None
         _, origin, taken = best
@@ -173,12 +205,12 @@ class _Builder:
         self.network.links.append(link)
         return taken
 
-    def _seen(self, variable: str, source: str, point: str) -> Iterator[int]:
-        """How long a token took in each flight, from a time of another on."""
+    def _seen(self, variable: str, source: str, point: str) -> Iterator[tuple[int, bool]]:
+        """How long a token took in each flight, from a time of another on, and whether that is known exactly."""
         for flight in self.flights:
             token, other = flight.get(self.requests[variable]), flight.get(self.requests[source])
-            if token is not None and other is not None:
-                yield token[1] - other[_POINTS.index(point)]
+            if token is not None and other is not None and (point == ".start" or other.is_known):
+                yield token.end - other[_POINTS.index(point)], token.is_known
 
     def _is_before(self, other: str, flown: Value, variable: str) -> bool:
         """Whether another end came before that of a token in the flight, while it lasted."""

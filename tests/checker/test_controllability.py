@@ -200,6 +200,21 @@ def test_a_branch_that_the_flight_did_not_take_counts(tmp_path: Path) -> None:
     assert answer == 1
 
 
+def test_what_lines_reckon_beyond_all_flights_is_not_called_a_fault(tmp_path: Path) -> None:
+    product = "float product; product == heating * rest; duration == ceil(product / 50.0);"
+    product = f"int rest; rest == 140 - heating; {product}"
+    rule = f"Oven::Bake {{ int heating; heating == sampledParameter(HEATING); {product} }}"
+    simulator = f"{rule}\nOven oven = new Oven(Internal);\nclose();\n"
+    answer, plan = told(tmp_path, {"ANALYSIS_MAX = 90": "ANALYSIS_MAX = 100"}, simulator)
+    (taken,) = plan["durations"]
+    assert taken["between"][1] > 100 and 90 < taken["in_flights"][1] <= 98  # 98: both factors are 70
+    assert (answer, plan["dynamic"], plan["strong"], plan["weak"]) == (2, None, None, None)
+    found = CliRunner().invoke(command, [str(tmp_path / "mission.toml")], standalone_mode=False)
+    assert "whether it is controllable is not known" in found.output
+    assert f"to {taken['in_flights'][1]} in flights)" in found.output
+    assert told(tmp_path, {"ANALYSIS_MAX = 90": "ANALYSIS_MAX = 88"}, simulator)[0] == 1
+
+
 def test_what_nothing_bounds_is_not_called_controllable(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Ranges, "range", lambda _self, _number: (-inf, inf))
     answer, plan = told(tmp_path, {})
