@@ -11,25 +11,30 @@ _MOST_PASSED = 2
 
 
 def examples_of(failed: Sequence[MissionResult], passed: Sequence[MissionResult]) -> Missions:
-    """The first failed missions, and of those that passed the ones whose draws are farthest from the first of them.
+    """The first failed mission, and of the others those whose draws are farthest from it, and from each other.
 
-    A change that only suits the draws of the failed missions shows where draws are opposite.
+    A change that only suits the draws of a failed mission shows where draws are opposite.
     """
     own = _drawn(failed[0])
     spread = {
         name: max(values) - min(values)
         for name, value in own.items()
-        if (values := [value, *(drawn[name] for one in passed if name in (drawn := _drawn(one)))])
+        if (values := [value, *(drawn[name] for one in (*failed, *passed) if name in (drawn := _drawn(one)))])
     }
 
-    def nearness(result: MissionResult) -> float:
-        drawn = _drawn(result)
-        shares = (abs(drawn[name] - own[name]) / spread[name] for name in own if name in drawn and spread[name] > 0.0)
-        return -sum(shares)
+    def distance(result: MissionResult, other: MissionResult) -> float:
+        drawn, theirs = _drawn(result), _drawn(other)
+        names = [name for name in spread if name in drawn and name in theirs and spread[name] > 0.0]
+        return sum(abs(drawn[name] - theirs[name]) / spread[name] for name in names)
 
-    chosen = sorted(passed, key=lambda one: (nearness(one), one.number))[:_MOST_PASSED]
+    chosen = sorted(passed, key=lambda one: (-distance(one, failed[0]), one.number))[:_MOST_PASSED]
+    kept, left = [failed[0]], list(failed[1:])
+    while left and len(kept) < _MOST_FAILED:
+        far = max(left, key=lambda one: (min(distance(one, other) for other in kept), -one.number))
+        kept.append(far)
+        left.remove(far)
     share = len(passed) / (len(passed) + len(failed))
-    return Missions(failed[:_MOST_FAILED], chosen, _only_exercised_by(failed, passed), _usual(passed), share)
+    return Missions(kept, chosen, _only_exercised_by(failed, passed), _usual(passed), share)
 
 
 def _only_exercised_by(failed: Sequence[MissionResult], passed: Sequence[MissionResult]) -> frozenset[int]:

@@ -13,7 +13,7 @@ from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import PlanDatabase
 from runtime.solver.configuration.configuration import default_configuration
-from tests.executive.flying import flown, history, planner, program, simulator
+from tests.executive.flying import flown, history, lines, planner, program, simulator
 from tests.executive.test_equal_runs import toy
 
 METRONOME = """
@@ -140,7 +140,7 @@ def test_what_was_asked_for_goes_in_a_repair_also_when_who_asked_was_archived() 
     )
     rule = "Job::Do { duration >= 4; any(Arm.Act a); end + 2 <= a.start; a.start <= end + 9; a.n == n; }"
     user = f"{arm} {job} {rule} Job job = new Job(Internal); Arm arm = new Arm(External); close();"
-    owner = f"{arm} Arm::Act {{ duration == n + 4; }} Arm arm = new Arm(Internal); close();"
+    owner = f"{arm} Arm::Act {{ duration == n + 12; }} Arm arm = new Arm(Internal); close();"
     goals = tuple(
         GoalConfiguration("job", "Do", start=start, duration=(4, 19), parameters=(("n", n),))
         for start, n in (((6, 6), 3), ((10, 10), 2), ((17, 32), 3))
@@ -148,7 +148,8 @@ def test_what_was_asked_for_goes_in_a_repair_also_when_who_asked_was_archived() 
     flyers = (planner("plan", user, "job", "arm", latency=1, lookahead=5), simulator("sim", owner, "arm"))
     flight = flown(*flyers, until=60, goals=goals)
     assert flight.report.holds
-    assert [line for line in history(flight.outcome, "arm") if "Act" in line] == ["18 Act(n=2)", "38 Act(n=3)"]
+    assert [line for line in history(flight.outcome, "arm") if "Act" in line] == ["12 Act(n=3)", "38 Act(n=3)"]
+    assert len(lines(flight.outcome, "recall")) == 2  # of the one under way, too
 
 
 class Hoarder(Workbench):
