@@ -70,10 +70,7 @@ class _Found:
 
 
 def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_trusted: bool) -> _Found:
-    run = store.find(name)
-    if run is None:
-        known = ", ".join(store.run_ids()[:10])
-        raise Unusable(f"no single run is named `{name}`", f"runs in the store: {known or 'none'}")
+    run = run_named(store, name)
     campaign, is_same = campaign_of(run, is_trusted)
     results = tuple(campaign.judged(one) for one in store.results(run.id))
     first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
@@ -183,6 +180,23 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
     return 0
 
 
+def run_named(store: RunStore, name: str) -> Run:
+    """The run of that name."""
+    run = store.find(name)
+    if run is None:
+        known = ", ".join(store.run_ids()[:10])
+        raise Unusable(f"no single run is named `{name}`", f"runs in the store: {known or 'none'}")
+    return run
+
+
+def check_random(run: Run, number: int) -> None:
+    """Complain of a mission that was not flown, unless it is a random one of the run, which its number tells."""
+    if not 1 <= number <= run.missions:
+        raise Unusable(f"run {run.id} has missions 1 to {run.missions}, not {number}")
+    if run.sampler != "random":
+        raise Unusable(f"{mission_name(number)} of run {run.id} was not flown, and only the sampler knows where it is")
+
+
 def campaign_of(run: Run, is_trusted: bool) -> tuple[Campaign, bool]:
     """The mission as its file is now, and whether that is still what was flown."""
     path = as_named(run.mission_file)
@@ -213,13 +227,11 @@ def _result(
     if number is None:
         raise Unusable(f"no mission of run {run.id} failed", f"{run.id}#N shows mission N all the same")
     stored = next((result for result in results if result.number == number), None)
-    if stored is None and not 1 <= number <= run.missions:
-        raise Unusable(f"run {run.id} has missions 1 to {run.missions}, not {number}")
     if stored is not None and (stored.has_trace or not is_same):
         return stored
+    if stored is None:
+        check_random(run, number)
     if not is_same:
         raise Unusable(f"mission {number} of run {run.id} was not flown, and the model or nddlc has changed since")
-    if stored is None and run.sampler != "random":
-        raise Unusable(f"mission {number} of run {run.id} was not flown, and only the sampler knows where it is")
     task = campaign.task(number, stored)
     return campaign.judged(fly_one(campaign.load(task.agent or campaign.models.agent), task, keep_trace=True))

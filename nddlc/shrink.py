@@ -15,7 +15,7 @@ from checker.rendering import failure_text
 from checker.sampling.rendering import number
 from checker.shrink import Shrunk
 from nddl_lang.text.values import json_text
-from nddlc.explanation import campaign_of
+from nddlc.explanation import campaign_of, run_named
 from nddlc.inputs import STORE, Unusable, mission_of_run
 from nddlc.trust import trust_option
 
@@ -55,9 +55,7 @@ def shrunk_mission(what: str, store_path: Path, is_trusted: bool) -> ShrunkMissi
     name, chosen = mission_of_run(what)
     try:
         with read_store(store_path) as store:
-            run = store.find(name or LATEST)
-            if run is None:
-                raise Unusable(f"no single run is named `{name}`")
+            run = run_named(store, name or LATEST)
             campaign, is_same = campaign_of(run, is_trusted)
             results = tuple(campaign.judged(one) for one in store.results(run.id))
     except StoreError as problem:

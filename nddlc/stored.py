@@ -9,8 +9,8 @@ from checker.batch.connection import LATEST, StoreError
 from checker.batch.store import read_store
 from checker.mission import Mission
 from checker.models import ModelSet
-from checker.names import as_named, mission_name
-from nddlc.explanation import campaign_of
+from checker.names import as_named
+from nddlc.explanation import campaign_of, check_random, run_named
 from nddlc.inputs import Unusable, mission_of_run
 
 
@@ -24,9 +24,7 @@ def stored_flight(what: str, store_path: Path, is_trusted: bool) -> tuple[Path, 
         raise Unusable(f"`{what}` names no mission of a run", "write RUN#MISSION, such as latest#37")
     try:
         with read_store(store_path) as store:
-            run = store.find(name or LATEST)
-            if run is None:
-                raise Unusable(f"no single run is named `{name}`")
+            run = run_named(store, name or LATEST)
             result = store.result(run.id, number)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
@@ -35,10 +33,8 @@ def stored_flight(what: str, store_path: Path, is_trusted: bool) -> tuple[Path, 
     models = campaign.models
     if models.has_errors or not models.texts:
         raise Unusable("the models are in error: nothing was flown", f"nddlc lint {file}")
-    if result is None and not 1 <= number <= run.missions:
-        raise Unusable(f"run {run.id} has missions 1 to {run.missions}, not {number}")
-    if result is None and run.sampler != "random":
-        raise Unusable(f"{mission_name(number)} of run {run.id} was not flown, and only the sampler knows where it is")
+    if result is None:
+        check_random(run, number)
     if not is_same:
         click.echo(f"note: model, mission file or nddlc have changed since run {run.id}", err=True)
     task = campaign.task(number, result)
