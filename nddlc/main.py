@@ -17,6 +17,7 @@ import click
 
 import runtime.build_form
 from nddl_lang.text.nearest import nearest
+from nddlc.deferral import LARGE, defer
 from nddlc.fitting import columns, fitted
 from runtime.limits import LimitError
 from runtime.user.black_box import HERE
@@ -90,6 +91,8 @@ class _Subcommands(click.Group):
         """The command in its file, where the table names one."""
         if cmd_name not in COMMANDS:
             return None
+        if cmd_name in _PLANNING:
+            defer(*LARGE)
         gc.disable()  # nothing of what is imported here is garbage
         found: click.Command = named(f"{COMMANDS[cmd_name][0]}:command")
         gc.freeze()

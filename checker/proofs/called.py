@@ -45,7 +45,7 @@ _Range = tuple[float, float]
 class Decider(Protocol):
     """What is asked of z3, or of `Asking`."""
 
-    def check(self, *assumptions: Claim) -> z3.CheckSatResult:
+    def check(self, *assumptions: Claim) -> "z3.CheckSatResult":
         """Whether all that was added, and the assumptions, can hold together."""
 
     def unsat_core(self) -> Sequence[Claim]:
@@ -109,19 +109,19 @@ class Opaque:
 
     # ---- asking ----
 
-    def given(self, model: z3.ModelRef) -> list[Claim]:
+    def given(self, model: "z3.ModelRef") -> list[Claim]:
         """That what determines the last target of a lemma is as z3 has proposed."""
         given = [one for k, one in enumerate(self.numbers) if k != self.target]
         return [one == model.eval(one, model_completion=True) for one in given]
 
-    def takes(self, model: z3.ModelRef) -> bool:
+    def takes(self, model: "z3.ModelRef") -> bool:
         """Whether the constraint takes what z3 proposes; raises UserCodeError."""
         return self._narrowed([self._single(k, value) for k, value in enumerate(self._values(model))]) is not None
 
-    def _values(self, model: z3.ModelRef) -> list[Fraction]:
+    def _values(self, model: "z3.ModelRef") -> list[Fraction]:
         return [_value(model.eval(one, model_completion=True)) for one in self.numbers]
 
-    def lemma(self, model: z3.ModelRef) -> Claim | None:
+    def lemma(self, model: "z3.ModelRef") -> Claim | None:
         """What z3 did not know and its values contradict; None where the constraint takes them.
 
         Raises UserCodeError.
@@ -222,13 +222,13 @@ class Opaque:
 class Asking:
     """A solver that calls constraints in Python on the values that it finds."""
 
-    def __init__(self, solver: z3.Solver, opaque: Sequence[Opaque]) -> None:
+    def __init__(self, solver: "z3.Solver", opaque: Sequence[Opaque]) -> None:
         self.solver = solver
         self.opaque = opaque
         self.lemmas = 0
         self.has_failed = False
 
-    def check(self, *assumptions: Claim) -> z3.CheckSatResult:
+    def check(self, *assumptions: Claim) -> "z3.CheckSatResult":
         """Whether all can hold together; unknown after too many lemmas, or where a constraint raises an exception."""
         marks = {each.get_id() for each in assumptions}
         asked = [each for each in self.opaque if each.mark.get_id() in marks]
@@ -251,7 +251,7 @@ class Asking:
                 self.has_failed = True
                 return z3.unknown
 
-    def _holds_near(self, model: z3.ModelRef, asked: Sequence[Opaque], assumptions: Sequence[Claim]) -> bool:
+    def _holds_near(self, model: "z3.ModelRef", asked: Sequence[Opaque], assumptions: Sequence[Claim]) -> bool:
         """Whether all can hold with what functions are given as proposed; else z3 would propose this without end."""
         self.solver.push()
         for each in asked:

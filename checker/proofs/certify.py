@@ -283,7 +283,7 @@ class Certifier:
             number > z3.Q(*float(value + margin).as_integer_ratio()),
         )
 
-    def _point(self, model: z3.ModelRef) -> Point:
+    def _point(self, model: "z3.ModelRef") -> Point:
         found: Point = {}
         for name in self.box.sides:
             value = model.eval(z3.Real(f"sampled {name}"), model_completion=True)

@@ -120,7 +120,7 @@ def needed_elements(conflict: Conflict, found: Confirmation) -> tuple[int, ...]:
     return found.core
 
 
-def minimal_core(solver: Decider, marks: Sequence[z3.BoolRef], needed: Sequence[int]) -> tuple[tuple[int, ...], bool]:
+def minimal_core(solver: Decider, marks: "Sequence[z3.BoolRef]", needed: Sequence[int]) -> tuple[tuple[int, ...], bool]:
     """Drop one after the other, the first first, while the rest still contradicts itself (deletion-based MUS).
 
     `solver` has just found that all marks together cannot hold. The second value tells whether each of what is left

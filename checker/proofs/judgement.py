@@ -127,7 +127,7 @@ class _Asked:
             found.setdefault(find(own), []).append(demand)
         return list(found.values())
 
-    def check(self, demands: Sequence[Demand]) -> tuple[z3.CheckSatResult, list[Demand]]:
+    def check(self, demands: Sequence[Demand]) -> "tuple[z3.CheckSatResult, list[Demand]]":
         """Whether demands can hold together, and where they cannot, those of them that cannot."""
         solver = z3.Solver()
         solver.set("rlimit", _EFFORT)

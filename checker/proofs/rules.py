@@ -240,7 +240,7 @@ class _RuleProof:
 
     # ---- questions ----
 
-    def _check(self, lines: Sequence[_Line]) -> tuple[z3.CheckSatResult, z3.Solver, list[z3.BoolRef]]:
+    def _check(self, lines: Sequence[_Line]) -> "tuple[z3.CheckSatResult, z3.Solver, list[z3.BoolRef]]":
         solver = z3.Solver()
         solver.set("rlimit", _EFFORT)
         marks = [z3.Bool(f"line {k}") for k in range(len(lines))]
@@ -258,7 +258,7 @@ class _RuleProof:
         core, _ = minimal_core(solver, marks, range(len(lines)))
         return [lines[k] for k in core if lines[k].span is not None]
 
-    def _values(self, model: z3.ModelRef) -> tuple[tuple[str, str], ...]:
+    def _values(self, model: "z3.ModelRef") -> tuple[tuple[str, str], ...]:
         found = []
         for slot, predicate in sorted(self.binding.predicates.items()):
             name = self.binding.labels[slot]

@@ -64,7 +64,7 @@ class _UndecidedError(Exception):
 
 
 class _Search:
-    def __init__(self, solver: z3.Solver, value: z3.ArithRef, start: Fraction) -> None:
+    def __init__(self, solver: "z3.Solver", value: "z3.ArithRef", start: Fraction) -> None:
         self.solver = solver
         self.value = value
         self.start = start
@@ -92,19 +92,19 @@ class _Search:
     def _reaches(self, end: Fraction) -> bool:
         return self._decided(lambda value: self._between(value, end, with_end=True))
 
-    def _between(self, value: z3.ArithRef, end: Fraction, *, with_end: bool) -> z3.BoolRef:
+    def _between(self, value: "z3.ArithRef", end: Fraction, *, with_end: bool) -> "z3.BoolRef":
         start, stop = rational(self.start), rational(end)
         if end > self.start:
             return z3.And(value > start, value <= stop if with_end else value < stop)
         return z3.And(value < start, value >= stop if with_end else value > stop)
 
-    def _decided(self, claim: Callable[[z3.ArithRef], z3.BoolRef]) -> bool:
+    def _decided(self, claim: "Callable[[z3.ArithRef], z3.BoolRef]") -> bool:
         answer = self.holds(claim)
         if answer is None:
             raise _UndecidedError
         return answer
 
-    def holds(self, claim: Callable[[z3.ArithRef], z3.BoolRef]) -> bool | None:
+    def holds(self, claim: "Callable[[z3.ArithRef], z3.BoolRef]") -> bool | None:
         """Whether the terms can hold where `claim` does; None where z3 gives up."""
         self.solver.push()
         self.solver.add(claim(self.value))
