@@ -94,6 +94,14 @@ def departures(one: Variation, outcome: Outcome) -> list[str]:
         count = sum(fits(pattern, event) for event in events)
         if count != pattern["n"]:
             wrong.append(f"{count} of {pattern}")
+    period, shown = one.draws
+    values: dict[int, Any] = {}
+    for event in events:
+        for timeline, name in shown:
+            if event["kind"] == "observation" and event["timeline"] == timeline and name in event["arguments"]:
+                value = event["arguments"][name]
+                if not same(values.setdefault(event["tick"] // period, value), value):
+                    wrong.append(f"{timeline}.{name} is {value} at {event['tick']}")
     return wrong
 
 

@@ -6,12 +6,14 @@
     | plan 1/60 task > arm ~src                  latency/look-ahead, own timelines > those used, ~ those only observed
       Task::Do { equals(Arm.Act a); }            its model; classes, timelines and `close()` are written by themselves
     | resources                                  solvers order what uses resources
+    | priority Job.Halt Job.Make                 solvers decide these first, in this order
     | goal task.Do(n=1) start 5..9 mandatory     also end, duration, at, recall
     = PASS @30                                   verdict, code, last tick
     = task: 0 Idle, 5..6 Do(1), 10 Idle ?        all that is observed there; `?`: may be missing
     = request arm.Act @4..5                      events, in this order; those of `= any` in whatever order
     = kill by plan(F8)                           with its code
     = 1 x request arm.Act                        how many there are
+    = draws 10 wave.v copy.v                     values of one parameter: the same in each period of so many ticks
 
 `| like NAME` takes over what another one has: its models, and what is not said anew.
 """
@@ -27,6 +29,7 @@ from runtime.solver.configuration.configuration import (
     Configuration,
     FlawHandler,
     FlawManager,
+    Match,
     default_configuration,
 )
 from tests.executive.flying import Flyer, planner
@@ -50,6 +53,7 @@ RESOURCES = replace(
         *default_configuration().managers,
     ),
 )
+ABOVE = ("  class ", "  enum ")  # lines of a model that come before its timelines
 MODES = {"": "Internal", ">": "External", "~": "Observe", "-": "Private", "!": "Ignore"}
 EVENT = re.compile(r"(\w+)(?: by (\w+))?(?: (\w+)(?:\.(\w+))?)?(?:\((.*?)\))?(?: @(\S+))?$")
 Data = dict[str, Any]
@@ -74,6 +78,7 @@ class Variation:
     events: list[Data] = field(default_factory=list)
     unordered: list[Data] = field(default_factory=list)
     counts: list[Data] = field(default_factory=list)
+    draws: tuple[int, list[list[str]]] = (1, [])  # a period, and the timelines and arguments that show a parameter
 
 
 def read_variations(file: Path) -> list[Variation]:
@@ -97,12 +102,14 @@ def read(lines: list[str], others: dict[str, Variation]) -> Variation:
             other = others[said.split()[1]]
             one = replace(other, name=one.name, observations={}, last_tick=None)
             one.flyers, one.models = dict(other.flyers), dict(other.models)
-            one.why, one.events, one.unordered, one.counts = "", [], [], []
+            one.why, one.events, one.unordered, one.counts, one.draws = "", [], [], [], (1, [])
         elif line.startswith("| until "):
             ticks, *rest = said.replace(",", " ").split()[1:]
             one.until, one.on_failure = int(ticks), "kill_reactor" if "kill" in rest else "abort_agent"
         elif line.startswith("| resources"):
             one.solver = RESOURCES
+        elif line.startswith("| priority "):
+            one.solver = prioritised(said.split()[1:])
         elif line.startswith("| goal "):
             goals.append(goal_of(said[5:]))
         elif line.startswith("| draw "):
@@ -155,10 +162,25 @@ def written(model: str, lines: list[tuple[str, str]]) -> str:
             body = " ".join(f"predicate {name} {{ {args} }}" for name, args in predicates.items())
             text.append(f'class {kind} extends AgentTimeline {{ {body} {kind}(Mode m) {{ super(m, "{default}"); }} }}')
     rules, _, script = model.partition("close();")
-    text += [line for line in rules.split("\n") if line.startswith("  class ")]
+    text += [line for line in rules.split("\n") if line.startswith(ABOVE)]
     text += [f"{kind} {line} = new {kind}({MODES[mode]});" for line, kind, mode in kinds]
-    text += [line for line in rules.split("\n") if not line.startswith("  class ")]
+    text += [line for line in rules.split("\n") if not line.startswith(ABOVE)]
     return "\n".join([*text, "close();", script])
+
+
+def prioritised(predicates: list[str]) -> Configuration:
+    """A table that has tokens of some predicates decided before all else, in this order."""
+    handlers = tuple(
+        FlawHandler("StandardOpenConditionHandler", Match(predicate=predicate), priority=number)
+        for number, predicate in enumerate(predicates, 1)
+    )
+    managers = default_configuration().managers
+    return replace(
+        default_configuration(),
+        managers=tuple(
+            replace(each, handlers=handlers) if each.component == "OpenConditionManager" else each for each in managers
+        ),
+    )
 
 
 def bounds_of(said: str) -> Bounds:
@@ -212,6 +234,9 @@ def expect(one: Variation, said: str) -> None:
     elif re.match(r"\d+ x ", said):
         count, _, pattern = said.partition(" x ")
         one.counts.append(pattern_of(pattern) | {"n": int(count)})
+    elif said.startswith("draws "):
+        period, *shown = said.split()[1:]
+        one.draws = (int(period), [each.split(".") for each in shown])
     elif said.startswith("any "):
         one.unordered.append(pattern_of(said[4:]))
     else:
