@@ -18,6 +18,7 @@ from checker.batch.progress import Progress
 from checker.batch.result import MissionResult
 from checker.batch.store import RunStore
 from checker.batch.worker import Load, Task, fly_one
+from checker.broken_plans import usual_breaking
 from checker.buckets import Key, bucket_key
 from checker.conditions.record import Conditions
 from checker.contrast import Contrast, Trace, find_contrast, nearest_passing
@@ -212,7 +213,7 @@ class Campaign:
         trace: Trace | None = None,
     ) -> Contrast | None:
         """What sets a failed mission apart from the nearest one that passes; flown in this process, or by `trace`."""
-        wanted = suspects(failed.outcome, fault) if failed.outcome is not None else ()
+        wanted = suspects(failed, fault, usual_breaking(results))
         agent = with_point(self.models.agent, failed.point)
         return find_contrast(failed, results, agent, trace or self._traced, wanted)
 
@@ -232,12 +233,13 @@ class Campaign:
     def _text(self) -> ModelText:
         return text_of(self.models.agent, self.models.programs)
 
-    def story(self, result: MissionResult, fault: Fault | None) -> Story:
-        """Why a mission failed."""
+    def story(self, result: MissionResult, fault: Fault | None, results: Sequence[MissionResult] = ()) -> Story:
+        """Why a mission failed; what passes all the same among `results` is no reason."""
         behaviour = result.outcome.behaviour if result.outcome is not None else ()
         programs = [self.models.programs[each.model] for each in self.models.agent.reactors] if behaviour else []
         taken = branches_taken(programs, behaviour) if programs else None
-        return tell(result, self.models.agent, self.models.influence, fault, self._text(), taken)
+        usual = usual_breaking(results)
+        return tell(result, self.models.agent, self.models.influence, fault, self._text(), taken, usual)
 
     def pairs(self, findings: Findings) -> list[Pair | None]:
         """The example of each fault with a passing mission near to it, which is flown again for its events."""
@@ -268,7 +270,7 @@ class Campaign:
         """The story of each fault's example; of very many faults, of the first ones."""
         by_number = {result.number: result for result in findings.results}
         return [
-            self.story(by_number[fault.bucket.example], fault) if index < _MOST_STORIES else None
+            self.story(by_number[fault.bucket.example], fault, findings.results) if index < _MOST_STORIES else None
             for index, fault in enumerate(findings.faults)
         ]
 

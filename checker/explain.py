@@ -15,7 +15,15 @@ from checker.losses import Repairs
 from checker.names import mission_name
 from checker.oracle import CODE_NAMES
 from checker.proofs.conflict import Confirmation
-from checker.rendering import cause_number, confirmation_text, failure_text, kind_text, step_label, step_text
+from checker.rendering import (
+    cause_number,
+    confirmation_text,
+    failure_text,
+    kind_text,
+    standing_text,
+    step_label,
+    step_text,
+)
 from checker.report.sentences import counted
 from checker.sampling.rendering import number
 from checker.story import Step, StepKind, Story
@@ -77,7 +85,13 @@ def _step_lines(index: int, step: Step, story: Story, excerpts: Excerpts, causes
     when = f"tick {step.tick}: " if step.tick is not None else ""
     lines = [f"{index:>4}  {when}{step_text(step, story)}{step_label(step, causes)}"]
     if step.place is not None:
-        lines += excerpt_lines(step.place, excerpts, marked=step.kind is StepKind.FAULT)
+        lines += excerpt_lines(step.place, excerpts, marked=step.kind in (StepKind.FAULT, StepKind.BROKEN))
+    for one in step.under:
+        cause = cause_number(one.place, causes)
+        lines += [
+            f"      {standing_text(one)}{f' (cause {cause})' if cause else ''}:",
+            *excerpt_lines(one.place, excerpts),
+        ]
     for limit in step.limits:
         cause = cause_number(limit, causes)
         mark = f" (cause {cause})" if cause else ""
@@ -170,6 +184,7 @@ def _step_data(step: Step, story: Story, excerpts: Excerpts) -> dict[str, Any]:
         "reason": step_text(step, story),
         "place": place_data(step.place, excerpts),
         "limits": [place_data(limit, excerpts) for limit in step.limits],
+        "under": [{"place": place_data(one.place, excerpts), "else": one.is_else} for one in step.under],
     }
 
 

@@ -7,8 +7,8 @@ from functools import partial
 
 from checker.batch.interruption import uninterrupted
 from checker.batch.result import MissionResult
+from checker.broken_plans import blamed
 from checker.buckets import Bucket, group_failures, joined
-from checker.causes import failed_by
 from checker.conditions.condition import Condition
 from checker.conditions.find import find_condition
 from checker.conditions.flights import Refly
@@ -239,7 +239,7 @@ def _fault(
     text: ModelText | None,
 ) -> Fault:
     example = next(result for result in results if result.number == bucket.example)
-    conflict = failed_by(example.outcome).conflict
+    conflict = blamed(example).conflict
     confirmation = confirm(conflict, text) if conflict is not None else None
     condition = known.get(bucket.example, bucket.example)
     if isinstance(condition, int):

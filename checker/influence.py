@@ -4,17 +4,16 @@ A static slice: from the sampled variable through the constraints of the same ru
 It says how a draw acts inside the simulator when the conflict was found in another reactor, whose terms know no draw.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
+from compiler.instructions import branched_instructions
 from compiler.program import (
     DURATION,
     END,
     START,
-    Guard,
     Instruction,
     LocalVariable,
-    ObjectLoop,
     Post,
     Program,
     Sample,
@@ -50,9 +49,12 @@ def lines_of_influence(program: Program, parameter: str) -> tuple[InfluenceLine,
     lines: list[InfluenceLine] = []
     for rule in program.rules:
         predicate = rule.predicate.rpartition(".")[2]
-        placed = list(_placed(rule.body))
+        placed = list(branched_instructions(rule.body))
         body = [instruction for instruction, _ in placed]
-        branches = {id(instruction): within for instruction, within in placed}
+        branches = {
+            id(instruction): tuple(branch_of(guard.span, "else" if is_else else "then") for guard, is_else in within)
+            for instruction, within in placed
+        }
         for instruction in body:
             if isinstance(instruction, Sample) and instruction.parameter == parameter:
                 found: list[Sample | Post] = [instruction, *_slice(body, instruction)]
@@ -65,19 +67,6 @@ def lines_of_influence(program: Program, parameter: str) -> tuple[InfluenceLine,
 def branch_of(guard: Span, name: str) -> Branch:
     """What tells a branch of a guard from all others of a model."""
     return guard.source.name, guard.begin, name
-
-
-def _placed(
-    body: Sequence[Instruction], within: tuple[Branch, ...] = ()
-) -> Iterator[tuple[Instruction, tuple[Branch, ...]]]:
-    """Each instruction in the order of the text, with the branches in which it stands."""
-    for each in body:
-        yield each, within
-        if isinstance(each, Guard):
-            yield from _placed(each.then, (*within, branch_of(each.span, "then")))
-            yield from _placed(each.otherwise, (*within, branch_of(each.span, "else")))
-        elif isinstance(each, ObjectLoop):
-            yield from _placed(each.body, within)
 
 
 def line_of(span: Span) -> SourcePlace:

@@ -15,6 +15,7 @@ from checker.proofs.called import Called
 from checker.proofs.conflict import Confirmation, Finding
 from checker.requested import PlannerChoice
 from checker.sampling.rendering import describe, number
+from checker.standing import Standing
 from checker.story import Step, StepKind, Story
 from checker.waiting import Waiting
 from compiler.program import DomainConstant
@@ -152,7 +153,14 @@ def step_label(step: Step, causes: Sequence[SourcePlace]) -> str:
     marks = [f"cause {number}"] if number else []
     if step.kind is StepKind.FAULT:
         marks.insert(0, "where it breaks" if causes else "the line to blame")
+    if step.kind is StepKind.BROKEN:
+        marks.insert(0, "where the plan broke")
     return f"   <== {', '.join(marks)}" if marks else ""
+
+
+def standing_text(standing: Standing) -> str:
+    """That a line stands under a condition."""
+    return "which stands in the `else` of" if standing.is_else else "which stands under"
 
 
 def cause_number(place: SourcePlace | None, causes: Sequence[SourcePlace]) -> int:

@@ -1,30 +1,31 @@
 """One failed mission in, its story out: the steps from what was drawn to the line where the agent gave up."""
 
-from collections.abc import Container, Iterator
-from dataclasses import dataclass
+from collections.abc import Container, Iterator, Sequence
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from checker.batch.result import MissionResult
+from checker.broken_plans import Breaking, blamed, broken_plan, fails_by_repairs
 from checker.causes import (
+    Failed,
     dead_ends,
     decided_at,
     draws_behind,
     events_to_abort,
-    failed_by,
     lines_that_rule_out,
     missed_after,
-    timed_requests,
 )
 from checker.culprit import culprit_of, in_telling_order
 from checker.findings import Fault
 from checker.influence import Branch, Influence, InfluenceLine
-from checker.losses import Limit
 from checker.oracle import Judgement
 from checker.proofs.conflict import Confirmation, confirm, needed_elements
 from checker.proofs.places import ModelText
 from checker.requested import PlannerChoice, lines_that_ask, who_chose
+from checker.standing import Standing, StandingLines
+from checker.told_events import lost_events, promised_events, sent_requests
 from checker.waiting import Waiting, waited_for
-from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration, PropertyKind
+from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import (
     Abort,
@@ -42,9 +43,6 @@ from runtime.executive.outcome import (
 
 _MOST_LINES = 8  # that rule out what was tried
 _MOST_ENDS = 3  # flaws against which there was nothing to choose
-_MOST_PROMISED = 4  # requests for what a property promises, and their answers
-_ASKED = (EventKind.REQUEST, EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL)
-_MOST_LOST = 12  # events that are told of a mission that lost too much
 
 
 class StepKind(StrEnum):
@@ -57,6 +55,7 @@ class StepKind(StrEnum):
     CHOSEN = "chosen"  # by a planner, as no line of the model says what an argument is
     CAUSE = "cause"  # an element of the conflict
     FAULT = "fault"  # the culprit
+    BROKEN = "broken"  # the culprit of what broke a plan that was repaired
     TRIED = "tried"  # what the search tried in vain
     WAITING = "waiting"  # what an open goal waited for
     ABORT = "abort"
@@ -68,7 +67,7 @@ class Step:
 
     `subject` is a draw with how it is drawn, the rule of a line, an event, an element of the conflict, a line that asks
     for one, what was tried or waited for, or the abort (None: the mission went to its end). `limits` are the lines that
-    set what the faulty one compares with.
+    set what the faulty one compares with, `under` the conditions under which the line of an element stands.
     """
 
     kind: StepKind
@@ -87,6 +86,7 @@ class Step:
     )
     place: SourcePlace | None = None
     limits: tuple[SourcePlace, ...] = ()
+    under: tuple[Standing, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,22 +115,27 @@ def tell(
     fault: Fault | None,
     text: ModelText | None = None,
     taken: Container[Branch] | None = None,
+    usual: Container[Breaking] = frozenset(),
 ) -> Story:
     """The story of a mission that failed and whose outcome is at hand; z3 reads the meaning of lines from `text`.
 
-    `taken` are the branches that the mission took, if that is known.
+    `taken` are the branches that the mission took, if that is known; `usual` is where plans break although missions
+    pass.
     """
     outcome = result.outcome
     assert outcome is not None
-    conflict = failed_by(outcome).conflict
+    failed = blamed(result)
+    conflict = failed.conflict
+    broken = None if fails_by_repairs(result) else broken_plan(result, usual)
+    conflicts = [one for one in (conflict, broken.conflict if broken is not None else None) if one is not None]
     confirmation = _confirmed(result, conflict, fault, text)
-    parameters = suspects(outcome, fault)
+    parameters = suspects(result, fault, usual)
     until = _decided_at(result, outcome)
-    draws = _draws(outcome, agent, _acting(influence, outcome, until, taken), parameters, until)
+    draws = _draws(outcome, agent, _acting(influence, outcome, until, taken, conflicts), parameters, until, conflicts)
     shown = _tokens_of(outcome, influence, parameters, until)
     indices = {
         *shown,
-        *_requests(outcome, conflict),
+        *sent_requests(outcome, conflict),
         *(index for index in events_to_abort(outcome, parameters) if index >= min(shown, default=0)),
     }
     way = [outcome.events[index] for index in sorted(indices)]
@@ -138,13 +143,13 @@ def tell(
         way = [event for event in way if event.kind is not EventKind.SAMPLE]
     abort = outcome.abort
     if result.judgement.exceeded is not None:
-        way = _lost(outcome, result.judgement.exceeded.limit)
-    way = sorted([*way, *_promised(result, outcome, agent)], key=lambda event: event.tick)
+        way = lost_events(outcome, result.judgement.exceeded.limit)
+    way = sorted([*way, *promised_events(result, outcome, agent)], key=lambda event: event.tick)
     steps = [
         *draws,
-        *(Step(StepKind.EVENT, event.tick, event) for event in way),
+        *_events(way, broken, outcome, text),
         *_with_askers(_conflict(conflict, confirmation), outcome, text),
-        *_tried(outcome),
+        *_tried(failed),
         *(Step(StepKind.WAITING, None, one) for one in waited_for(outcome, agent)),
         Step(StepKind.ABORT, outcome.last_tick, abort),
     ]
@@ -155,7 +160,7 @@ def tell(
         result.open_goals,
         outcome.last_tick,
         outcome.final_tick,
-        tuple(_without_repeats(steps)),
+        tuple(_with_conditions(_without_repeats(steps), text)),
         fault,
         confirmation,
         missed_after(outcome),
@@ -171,51 +176,18 @@ def _confirmed(
     return confirm(conflict, text) if conflict is not None else None
 
 
-def _requests(outcome: Outcome, conflict: Conflict | None) -> Iterator[int]:
-    """The last requests of reactors for what the conflict says was asked for by some time."""
-    for element in timed_requests(conflict.elements) if conflict is not None else ():
-        if element.token is not None:
-            wanted = element.token.predicate.rpartition(".")[2]
-            sent = [
-                index
-                for index, event in enumerate(outcome.events)
-                if event.kind is EventKind.REQUEST and event.reactor and event.predicate == wanted
-            ]
-            yield from sent[-1:]
+def suspects(result: MissionResult, fault: Fault | None, usual: Container[Breaking] = frozenset()) -> tuple[str, ...]:
+    """The parameters that the story begins with: those of the condition, else those that the failure depends on.
 
-
-def _lost(outcome: Outcome, limit: Limit) -> list[Event]:
-    """The events in which a mission lost more than it may, the first ones."""
-    wanted = (EventKind.RELAX,) if limit is Limit.REPAIRS else (EventKind.REFUSE, EventKind.REJECT)
-    is_about_goals = limit in (Limit.REJECTED, Limit.LATE)
-    found = [event for event in single_events(outcome.events) if event.kind in wanted]
-    if limit is not Limit.REPAIRS:
-        found = [one for one in found if (one.request is not None and one.request < 0) == is_about_goals]
-    return found[:_MOST_LOST]
-
-
-def _promised(result: MissionResult, outcome: Outcome, agent: AgentConfiguration) -> list[Event]:
-    """What a violated property is about: what it follows on, and what became of the requests for what it promises."""
-    broken = result.judgement.broken
-    kept = next((one for one in agent.properties if broken is not None and one.name == broken.name), None)
-    if kept is None or kept.level is not None or broken is None:
-        return []
-    events = list(single_events(outcome.events))
-    about = [one for one in events if one.kind is EventKind.OBSERVATION and one.timeline == kept.pattern.timeline]
-    found = [one for one in about if one.tick == broken.tick and kept.kind is not PropertyKind.REACHED]
-    wanted = kept.pattern if kept.kind is PropertyKind.REACHED else kept.then
-    if wanted is not None:
-        since = found[0].tick if found and kept.kind is PropertyKind.WITHIN else 0
-        asked = [one for one in events if one.kind in _ASKED and one.timeline == wanted.timeline and one.tick >= since]
-        found += [one for one in asked if wanted.predicate in ("", one.predicate)][-_MOST_PROMISED:]
-    return found
-
-
-def suspects(outcome: Outcome, fault: Fault | None) -> tuple[str, ...]:
-    """The parameters that the story begins with: those of the condition, else those that the abort depends on."""
+    These are what broke a plan, where that is not `usual`, and what ended the mission.
+    """
+    if result.outcome is None:
+        return ()
     if fault is not None and fault.condition is not None:
         return fault.condition.parameters
-    return draws_behind(outcome)
+    broken = broken_plan(result, usual)
+    spoken = broken.conflict.parameters if broken is not None and broken.conflict is not None else ()
+    return tuple(dict.fromkeys((*spoken, *draws_behind(result.outcome))))
 
 
 def _decided_at(result: MissionResult, outcome: Outcome) -> int:
@@ -236,11 +208,16 @@ def _tokens_of(outcome: Outcome, influence: Influence, parameters: tuple[str, ..
     return [last[predicate] for predicate in wanted if predicate in last]
 
 
-def _acting(influence: Influence, outcome: Outcome, until: int, taken: Container[Branch] | None) -> Influence:
-    """Lines that a mission came to up to a tick, on branches that it took, and those of which its conflict speaks."""
+def _acting(
+    influence: Influence,
+    outcome: Outcome,
+    until: int,
+    taken: Container[Branch] | None,
+    conflicts: Sequence[Conflict],
+) -> Influence:
+    """Lines that a mission came to up to a tick, on branches that it took, and those of which its conflicts speak."""
     begun = {predicate for _, tick, _, predicate in heads_of(outcome.events) if tick <= until}
-    conflict = failed_by(outcome).conflict
-    places = [one.place for one in conflict.elements if one.place is not None] if conflict is not None else []
+    places = [one.place for conflict in conflicts for one in conflict.elements if one.place is not None]
     spoken = {(place.file, place.line) for place in places}
 
     def acts(line: InfluenceLine) -> bool:
@@ -252,12 +229,16 @@ def _acting(influence: Influence, outcome: Outcome, until: int, taken: Container
 
 
 def _draws(
-    outcome: Outcome, agent: AgentConfiguration, influence: Influence, parameters: tuple[str, ...], until: int
+    outcome: Outcome,
+    agent: AgentConfiguration,
+    influence: Influence,
+    parameters: tuple[str, ...],
+    until: int,
+    conflicts: Sequence[Conflict],
 ) -> list[Step]:
-    """What was drawn last up to a tick, or of what the conflict speaks, and the lines that pass it on."""
+    """What was drawn last up to a tick, or of what the conflicts speak, and the lines that pass it on."""
     by_name = {parameter.name: parameter for parameter in agent.parameters}
-    conflict = failed_by(outcome).conflict
-    spoken = dict(conflict.drawn) if conflict is not None else {}
+    spoken = dict(drawn for conflict in conflicts for drawn in conflict.drawn)
     steps: list[Step] = []
     for name in parameters:
         drawn = [draw for draw in outcome.draws if draw.parameter == name and draw.tick <= until]
@@ -266,22 +247,36 @@ def _draws(
             continue
         draw, lines = drawn[-1], influence.get(name, ())
         since = draw.tick if name in by_name and by_name[name].mode == "intra" else None
-        place = lines[0].place if lines else _sampled_at(outcome, name)
+        place = lines[0].place if lines else _sampled_at(conflicts, name)
         steps.append(Step(StepKind.DRAW, since, (draw, by_name.get(name)), place))
         steps += [Step(StepKind.LINE, None, line.rule, line.place) for line in lines[1:]]
     return steps
 
 
-def _sampled_at(outcome: Outcome, name: str) -> SourcePlace | None:
-    """The line that samples a parameter, if the conflict knows it."""
-    conflict = failed_by(outcome).conflict
-    for element in conflict.elements if conflict else ():
+def _sampled_at(conflicts: Sequence[Conflict], name: str) -> SourcePlace | None:
+    """The line that samples a parameter, if a conflict knows it."""
+    for element in (element for conflict in conflicts for element in conflict.elements):
         if any(term.name == "sampledParameter" and term.arguments[1] == name for term in element.terms):
             return element.place
     return None
 
 
-def _conflict(conflict: Conflict | None, confirmation: Confirmation | None) -> list[Step]:
+def _events(way: Sequence[Event], broken: Event | None, outcome: Outcome, text: ModelText | None) -> Iterator[Step]:
+    """The events on the way, and where a plan broke first, with what broke it."""
+    told = [Step(StepKind.EVENT, event.tick, event) for event in way if event is not broken]
+    if broken is None:
+        yield from told
+        return
+    yield from (step for step in told if step.tick is not None and step.tick <= broken.tick)
+    yield Step(StepKind.EVENT, broken.tick, broken)
+    confirmation = confirm(broken.conflict, text) if broken.conflict is not None else None
+    yield from _with_askers(_conflict(broken.conflict, confirmation, StepKind.BROKEN), outcome, text)
+    yield from (step for step in told if step.tick is not None and step.tick > broken.tick)
+
+
+def _conflict(
+    conflict: Conflict | None, confirmation: Confirmation | None, kind: StepKind = StepKind.FAULT
+) -> list[Step]:
     """The elements of the conflict that its contradiction needs, from the draw outwards, the culprit last."""
     if conflict is None or confirmation is None:
         return []
@@ -299,7 +294,7 @@ def _conflict(conflict: Conflict | None, confirmation: Confirmation | None) -> l
         and (element.place is None or element.place not in culprit.limits)
     ]
     if culprit.element is not None:
-        steps.append(Step(StepKind.FAULT, None, culprit.element, culprit.place, culprit.limits))
+        steps.append(Step(kind, None, culprit.element, culprit.place, culprit.limits))
     return steps
 
 
@@ -317,6 +312,19 @@ def _with_askers(steps: list[Step], outcome: Outcome, text: ModelText | None) ->
         yield step
 
 
+def _with_conditions(steps: list[Step], text: ModelText | None) -> Iterator[Step]:
+    """The steps, those of elements with the conditions under which their lines stand, but for what was told before."""
+    told: set[Standing] = set()
+    lines = StandingLines(text.programs, text.root) if text is not None else None
+    for step in steps:
+        if lines is not None and isinstance(step.subject, ConflictElement):
+            under = tuple(one for one in lines.of(step.subject) if one not in told)
+            told.update(under)
+            yield replace(step, under=under)
+        else:
+            yield step
+
+
 def _is_only_resource(element: ConflictElement, conflict: Conflict) -> bool:
     """Whether an element says that a use is of the only resource there is; the resource names its users."""
     if element.kind is not ElementKind.DECLARATION or element.place is not None:
@@ -325,9 +333,8 @@ def _is_only_resource(element: ConflictElement, conflict: Conflict) -> bool:
     return any(one.kind == "object" and one in named for one in element.variables)
 
 
-def _tried(outcome: Outcome) -> list[Step]:
+def _tried(failed: Failed) -> list[Step]:
     """What the search tried in vain, and the lines that rule it out and that the conflict does not name."""
-    failed = failed_by(outcome)
     if failed.deadlock is None:
         return []
     limits = culprit_of(failed.conflict).limits

@@ -14,3 +14,19 @@ def all_instructions(body: Iterable[Instruction]) -> Iterator[Instruction]:
             yield from all_instructions(each.otherwise)
         elif isinstance(each, ObjectLoop):
             yield from all_instructions(each.body)
+
+
+Branch = tuple[Guard, bool]  # a guard, and whether it is its `else` that is meant
+
+
+def branched_instructions(
+    body: Iterable[Instruction], within: tuple[Branch, ...] = ()
+) -> Iterator[tuple[Instruction, tuple[Branch, ...]]]:
+    """The same, each with the branches in which it stands, the outermost first."""
+    for each in body:
+        yield each, within
+        if isinstance(each, Guard):
+            yield from branched_instructions(each.then, (*within, (each, False)))
+            yield from branched_instructions(each.otherwise, (*within, (each, True)))
+        elif isinstance(each, ObjectLoop):
+            yield from branched_instructions(each.body, within)

@@ -158,7 +158,7 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
     if not found.is_same and style == "text":
         say("model, mission file or nddlc have changed since this run; the explanation is of what was flown\n\n")
     if result.verdict is Verdict.FAIL:
-        story = campaign.story(result, found.fault)
+        story = campaign.story(result, found.fault, found.results)
         most = len(found.fault.causes.ranked) if found.fault is not None and verbose else MOST_CAUSES
         contrast = campaign.contrast(result, found.results, found.fault) if found.is_same else None
         drawn = f"\nthe causal graph, each node with the numbers of its causes:\n{graph_text(graph)}" if graph else ""

@@ -1,0 +1,61 @@
+"""Repairs of a mission in, the one in which a plan broke out: what is told of missions that fail after repairs.
+
+A repair sets aside what broke, so that what ends the mission later may only follow from it.
+"""
+
+from collections import Counter
+from collections.abc import Container, Sequence
+
+from checker.batch.result import MissionResult
+from checker.causes import Failed, failed_by
+from checker.culprit import culprit_of
+from checker.losses import Limit
+from checker.oracle import Verdict
+from runtime.executive.events import single_events
+from runtime.executive.outcome import Event, EventKind, RepairStage, SourcePlace
+
+Breaking = tuple[str, SourcePlace | None]  # a reactor, and the line at which its plan broke
+
+
+def usual_breaking(results: Sequence[MissionResult]) -> frozenset[Breaking]:
+    """Where plans break in missions that pass all the same."""
+    passed = [one for one in results if one.verdict is Verdict.PASS]
+    return frozenset((each.reactor, each.place) for one in passed for each in one.losses.repairs)
+
+
+def broken_plan(result: MissionResult, usual: Container[Breaking] = frozenset()) -> Event | None:
+    """The repair of a plan that broke before the mission ended, of those with a conflict and not `usual`, the first.
+
+    Of a mission that fails as there were too many repairs, the first at the line where plans broke most often.
+    """
+    outcome = result.outcome
+    if outcome is None:
+        return None
+    end = outcome.last_tick if outcome.abort is not None else outcome.last_tick + 1
+    repairs = [
+        (event, (event.reactor, culprit_of(event.conflict).place))
+        for event in single_events(outcome.events)
+        if event.kind is EventKind.RELAX
+        and event.stage is RepairStage.KEEP_PAST
+        and event.conflict is not None
+        and event.tick < end
+    ]
+    if fails_by_repairs(result):
+        counts = Counter(at for _, at in repairs)
+        most = max(counts.values(), default=0)
+        return next((event for event, at in repairs if counts[at] == most), None)
+    return next((event for event, at in repairs if at not in usual), None)
+
+
+def blamed(result: MissionResult) -> Failed:
+    """What is known of why a mission failed; of one with too many repairs, what broke its plan."""
+    if fails_by_repairs(result) and (repair := broken_plan(result)) is not None:
+        return Failed(repair.conflict, repair.deadlock)
+    return failed_by(result.outcome)
+
+
+def fails_by_repairs(result: MissionResult) -> bool:
+    """Whether all that is wrong with a mission is that its plans were repaired too often."""
+    exceeded = result.judgement.exceeded
+    is_over = result.outcome is not None and result.outcome.abort is None
+    return is_over and exceeded is not None and exceeded.limit is Limit.REPAIRS

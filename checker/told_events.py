@@ -1,0 +1,54 @@
+"""Events on the way to a failure: requests that a conflict speaks of, what was lost, what a property is about."""
+
+from collections.abc import Iterator
+
+from checker.batch.result import MissionResult
+from checker.causes import timed_requests
+from checker.losses import Limit
+from runtime.executive.configuration import AgentConfiguration, PropertyKind
+from runtime.executive.events import single_events
+from runtime.executive.outcome import Conflict, Event, EventKind, Outcome
+
+_MOST_PROMISED = 4  # requests for what a property promises, and their answers
+_ASKED = (EventKind.REQUEST, EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL)
+_MOST_LOST = 12  # events that are told of a mission that lost too much
+
+
+def sent_requests(outcome: Outcome, conflict: Conflict | None) -> Iterator[int]:
+    """The last requests of reactors for what the conflict says was asked for by some time."""
+    for element in timed_requests(conflict.elements) if conflict is not None else ():
+        if element.token is not None:
+            wanted = element.token.predicate.rpartition(".")[2]
+            sent = [
+                index
+                for index, event in enumerate(outcome.events)
+                if event.kind is EventKind.REQUEST and event.reactor and event.predicate == wanted
+            ]
+            yield from sent[-1:]
+
+
+def lost_events(outcome: Outcome, limit: Limit) -> list[Event]:
+    """The events in which a mission lost more than it may, the first ones."""
+    wanted = (EventKind.RELAX,) if limit is Limit.REPAIRS else (EventKind.REFUSE, EventKind.REJECT)
+    is_about_goals = limit in (Limit.REJECTED, Limit.LATE)
+    found = [event for event in single_events(outcome.events) if event.kind in wanted]
+    if limit is not Limit.REPAIRS:
+        found = [one for one in found if (one.request is not None and one.request < 0) == is_about_goals]
+    return found[:_MOST_LOST]
+
+
+def promised_events(result: MissionResult, outcome: Outcome, agent: AgentConfiguration) -> list[Event]:
+    """What a violated property is about: what it follows on, and what became of the requests for what it promises."""
+    broken = result.judgement.broken
+    kept = next((one for one in agent.properties if broken is not None and one.name == broken.name), None)
+    if kept is None or kept.level is not None or broken is None:
+        return []
+    events = list(single_events(outcome.events))
+    about = [one for one in events if one.kind is EventKind.OBSERVATION and one.timeline == kept.pattern.timeline]
+    found = [one for one in about if one.tick == broken.tick and kept.kind is not PropertyKind.REACHED]
+    wanted = kept.pattern if kept.kind is PropertyKind.REACHED else kept.then
+    if wanted is not None:
+        since = found[0].tick if found and kept.kind is PropertyKind.WITHIN else 0
+        asked = [one for one in events if one.kind in _ASKED and one.timeline == wanted.timeline and one.tick >= since]
+        found += [one for one in asked if wanted.predicate in ("", one.predicate)][-_MOST_PROMISED:]
+    return found
