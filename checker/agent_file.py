@@ -225,7 +225,9 @@ class _AgentFile:
         self._put(("clock",), element.span)
         if element.tag == "LogClock" and element.find("file") is None:
             self.steps["log"] = "clock.xml"  # T-REX's name for it
-        self._attributes(element, self.steps, ("clock",), _CLOCKS[element.tag], (*_UNREAD, *_SECONDS))
+        is_timed = element.tag in ("RealTimeClock", "FastClock")
+        units = tuple(_SECONDS) if is_timed else ()
+        self._attributes(element, self.steps, ("clock",), _CLOCKS[element.tag], (*_UNREAD, *_SECONDS), units)
         seconds = 0.0
         for attribute in element.attributes:
             factor, value = _SECONDS.get(attribute.name), _value(attribute.value)
@@ -236,22 +238,29 @@ class _AgentFile:
                 self.text.diagnostics.append(
                     WRONG_TYPE.at(attribute.span, key=attribute.name, wanted="a number", found="a text")
                 )
-        if seconds and element.tag in ("RealTimeClock", "FastClock"):
+        if seconds and is_timed:
             self.mission["tick"] = seconds
 
     def _attributes(
-        self, element: Element, table: TomlTable, path: Keys, known: dict[str, str], unread: tuple[str, ...]
+        self,
+        element: Element,
+        table: TomlTable,
+        path: Keys,
+        known: dict[str, str],
+        unread: tuple[str, ...],
+        read: tuple[str, ...] = (),
     ) -> None:
-        """Put the attributes of an element into a table; those that mean nothing are told."""
+        """Put the attributes of an element into a table; those without a meaning, nor `read` elsewhere, are told."""
         for attribute in element.attributes:
-            close = nearest(attribute.name, [*known]) if attribute.name not in unread else None
+            close = nearest(attribute.name, [*known, *read]) if attribute.name not in unread else None
             key = known.get(attribute.name, known.get(close or ""))
             if key is not None:
                 is_text = key in ("name", "model", "solver", "code", "timeline", "predicate", "log")
                 table[key] = attribute.value if is_text else _value(attribute.value)
                 self._put((*path, key), attribute.span)
             if attribute.name not in known and attribute.name not in unread:
-                advice = f"did you mean `{close}`?" if close else "known attributes: " + ", ".join(known)
+                names = ", ".join([*known, *read]) or "none"
+                advice = f"did you mean `{close}`?" if close else f"known attributes: {names}"
                 self.text.diagnostics.append(
                     UNKNOWN_KEY.at(attribute.span, key=attribute.name, table=f"<{element.tag}>", help=advice)
                 )

@@ -17,6 +17,7 @@ from checker.proofs.claims import Claim, Number, bounds_claim, claim_of, member_
 from checker.proofs.instructions import (
     assign_claim,
     domain_claim,
+    drawn_claim,
     given_claim,
     object_claim,
     post_claim,
@@ -185,9 +186,8 @@ class _Reader:
                 return assign_claim(instruction, binding)
             case Sample(target=target) if term.name == "sampledParameter":
                 binding.align((target,), Term("", term.arguments[:1]))
-                post = Post("eq", (target, target), None, instruction.span)
                 value = self.symbols.constant(_number(term.arguments[2]), variables[0].kind)
-                return None if post_claim(post, binding) is None else binding.last == value
+                return drawn_claim(target, value, binding)
             case NewGlobal(domain=domain) if term.name == "bounds" and domain is not None:
                 return self.symbols.within(self.number(term.arguments[0]), domain)
             case NewObject() if term.name == "bounds":

@@ -25,6 +25,13 @@ def post_claim(post: Post, binding: Binding) -> Claim | None:
     return None if found is None else z3.And(found, *base)
 
 
+def drawn_claim(target: Operand, value: Number, binding: Binding) -> Claim | None:
+    """That what is sampled has the value that was drawn: a local variable, or a time or parameter of a token."""
+    base: list[Claim] = []
+    found = number(target, binding, base)
+    return None if found is None else z3.And(found == value, *base)
+
+
 def relation_claim(given: Child | Relate, binding: Binding) -> Claim | None:
     """What the relation of a child, or of two tokens, demands of their times."""
     target = given.slot if isinstance(given, Child) else given.target

@@ -29,7 +29,6 @@ class TermBinding:
         self.reactor = reactor
         self.tokens: dict[int, TokenName] = {} if own is None else {0: own}
         self.slots: dict[int, VariableName] = {}
-        self.last: Number | None = None
 
     def align(self, operands: Sequence[Operand], term: Term) -> bool:
         """Take the variables of a term that has the operands' order for them; False where it has not."""
@@ -73,12 +72,10 @@ class TermBinding:
         """A local by the name that the engine gives it, or the text."""
         named, name = self.slots.get(slot), self.layout.locals.get(slot)
         if named is not None:
-            self.last = self.symbols.variable(f"{named.reactor}:{named}", named.kind)
-            return self.last
+            return self.symbols.variable(f"{named.reactor}:{named}", named.kind)
         if name is None or self.own is None:
             return None
-        self.last = self.symbols.variable(f"{self.reactor}:{self.own}::{name}", self.layout.types[slot].kind)
-        return self.last
+        return self.symbols.variable(f"{self.reactor}:{self.own}::{name}", self.layout.types[slot].kind)
 
     def world(self, index: int) -> Number | None:
         """A global variable by its name."""

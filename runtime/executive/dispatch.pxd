@@ -43,6 +43,9 @@ cdef class Dispatch:
     @cython.locals(before="long long", bench=Workbench, token="long long")
     cpdef double next_due(self, TimelineState line, long long tick) except? -1.0
 
+    @cython.locals(current="long long")
+    cpdef long long open_now(self, TimelineState line) except? -1
+
     @cython.locals(before="long long", bench=Workbench, token="long long")
     cpdef long long next_request(self, TimelineState line) except? -1
 

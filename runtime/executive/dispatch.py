@@ -127,7 +127,7 @@ class Dispatch:
         if token != NOTHING:
             return max(self.due_time(line, token, tick), free_at(bench, token, line.current, tick))
         # What waits for the end of what is open there is to be asked for when it cannot wait any more.
-        before = line.current if line.current != NOTHING and self.is_asked(line.current) else NOTHING
+        before = self.open_now(line)
         token = bench.next_of(line.object_id, line.current)
         while token != NOTHING:
             if before != NOTHING and not is_tied(bench, bench.end(before), bench.start(token)):
@@ -135,13 +135,23 @@ class Dispatch:
             before, token = token, bench.following(token)
         return INFINITY
 
+    def open_now(self, line: TimelineState) -> int:
+        """The current token of a timeline if that was asked for, and what comes next waits for its end; or NOTHING.
+
+        What holds there by default is over when something else is asked for, also where that was asked for itself.
+        """
+        current = line.current
+        if current == NOTHING or not self.is_asked(current) or self.bench.predicate_of(current) == line.default:
+            return NOTHING
+        return current
+
     def next_request(self, line: TimelineState) -> int:
         """The planned token that is to be asked for next; NOTHING while another is open, or where none is planned.
 
         What must begin as the open one ends cannot wait until that was seen: then nothing could begin in time.
         """
         bench = self.bench
-        before = line.current if line.current != NOTHING and self.is_asked(line.current) else NOTHING
+        before = self.open_now(line)
         token = bench.next_of(line.object_id, line.current)
         while token != NOTHING:
             if before != NOTHING:

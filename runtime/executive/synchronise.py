@@ -222,13 +222,13 @@ class _Search:
         """How `predicate` may be observed: by a planned token that may start now, or by itself."""
         bench = self.bench
         found: list[_Choice] = []
-        if predicate == NOTHING:
+        if predicate == NOTHING or line.news is None:
             return found
-        assert line.news is not None
         token = bench.next_of(line.object_id, line.current)
         while token >= 0:
-            if bench.predicate_of(token) == predicate and self._may_start(token):
-                found.append((_MEET, token, predicate))
+            planned = bench.predicate_of(token)
+            if bench.is_met_by(planned, predicate) and self._may_start(token):
+                found.append((_MEET, token, planned))
             token = bench.following(token)
         for _, token, _ in found:
             if self.asked.is_answered(token, line.news.event):
@@ -307,7 +307,7 @@ class _Search:
         fact = bench.new_token(predicate, line.object_id, True)
         holds = bench.fix(bench.start(fact), tick, SPAN_OBSERVATION, fact)
         holds = holds and bench.at_least(bench.end(fact), tick + 1, SPAN_OBSERVATION, fact)
-        if predicate == line.predicates.get(news.predicate):
+        if kind == _MEET or predicate == line.predicates.get(news.predicate):
             holds = holds and bench.restrict_parameters(fact, news.arguments, SPAN_OBSERVATION)
         if not holds:
             return NOTHING

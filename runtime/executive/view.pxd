@@ -7,6 +7,7 @@ from runtime.executive.recorder cimport Recorder
 from runtime.executive.timelines cimport TimelineState
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport Rows
+from runtime.plan.tokens.predicate_hierarchy cimport is_kind_of
 
 cdef long long ACTIVE, DURATION, END, FIRST_PARAMETER, FLAG_FACT, FLAG_GOAL, FREED, HEAD_OPEN, HEAD_THREAT, INACTIVE
 cdef long long KIND_BOOL, KIND_FLOAT, KIND_INT, KIND_STRING, LISTS, LIST_OPEN, LIST_ORDER, LIST_THREAT, MERGED, NONE
@@ -97,6 +98,8 @@ cdef class PlanView:
     cpdef long long stands_for(self, long long t) except? -1
 
     cpdef long long predicate_of(self, long long t) except? -1
+
+    cpdef bint is_met_by(self, long long planned, long long observed) except -1
 
     cpdef long long next_of(self, long long o, long long current) except? -1
 

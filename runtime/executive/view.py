@@ -29,6 +29,7 @@ from runtime.plan.tags import (
     NONE,
     REJECTED,
 )
+from runtime.plan.tokens.predicate_hierarchy import is_kind_of
 
 # Spans of what no line of the model says: the executive's own reasons.
 SPAN_OBSERVATION, SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_REQUEST, SPAN_MISSION = -2, -3, -4, -5, -6
@@ -259,6 +260,20 @@ class PlanView:
     def predicate_of(self, t: int) -> int:
         """The predicate of a token."""
         return self.rows.predicate[t]
+
+    def is_met_by(self, planned: int, observed: int) -> bool:
+        """Whether a planned token of one predicate is met by what is observed to be of another, or of the same.
+
+        A class has the predicates of what it extends as its own: who asked for that has got this, unless rules speak
+        of the one that is observed alone. These would be lost on a token of the other.
+        """
+        if planned == observed:
+            return True
+        if not is_kind_of(self.plan, observed, planned):
+            return False
+        rules = self.plan.rule_number[self.plan.first_rule[planned] : self.plan.first_rule[planned + 1]]
+        own = self.plan.rule_number[self.plan.first_rule[observed] : self.plan.first_rule[observed + 1]]
+        return set(own) <= set(rules)
 
     def next_of(self, o: int, current: int) -> int:
         """The token behind the current one in the sequence of a timeline; the first one if there is no current."""

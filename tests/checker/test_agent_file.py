@@ -119,6 +119,14 @@ def test_mistakes_are_told_with_their_places(
         assert one.span.begin == text.index(at)
 
 
+def test_the_units_of_a_clock_are_among_its_known_attributes(place: Path) -> None:
+    text = AGENT.replace('<RealTimeClock millis="500"/>', '<FastClock tick="10"/>')
+    (place / "agent.xml").write_text(text)
+    _, found = read_mission(place / "agent.xml")
+    (one,) = [each for each in found if each.code.id == "NDDL702"]
+    assert one.help == "known attributes: hours, minutes, seconds, millis, micros"
+
+
 @pytest.mark.parametrize(("given", "observed"), [("1", ()), ("true", ()), ("0", ("helm",)), ("false", ("helm",))])
 def test_who_sends_no_goals_to_a_timeline_only_observes_it(place: Path, given: str, observed: tuple[str, ...]) -> None:
     (place / "navigator.xml").write_text(NAVIGATOR.replace('goals="1"', f'goals="{given}" listen="false"'))

@@ -10,6 +10,7 @@ import pytest
 from checker.proofs.conflict import Finding, confirm, needed_elements
 from checker.proofs.places import ModelText
 from runtime.executive.outcome import Conflict, ElementKind
+from tests.checker.conditions.campaigns import RANGES, campaign, flown
 from tests.checker.mutant_conflicts import conflicts_of_mutants
 
 pytestmark = pytest.mark.once
@@ -98,3 +99,12 @@ def test_a_limit_of_a_resource_is_read_off_the_text() -> None:
             assert confirm(lie).finding is Finding.REFUTED
             return
     pytest.fail("no conflict over the least level")
+
+
+def test_a_draw_that_is_a_time_itself_is_told_to_z3_as_such(tmp_path: Path) -> None:
+    """`duration == sampledParameter(S)` has no variable of the rule's own: z3 was told that it cannot hold."""
+    given = campaign(tmp_path, "duration == sampledParameter(S);", ranges=f"{RANGES} int S = [5 9];", missions=1)
+    (failed,) = flown(given)
+    confirmation = given.story(failed, None).confirmation
+    assert confirmation is not None and confirmation.finding is Finding.CONFIRMED
+    assert len(confirmation.core) == 2 and confirmation.written == 2

@@ -66,6 +66,43 @@ def test_early_and_late_answers_within_the_slack_need_no_repair(duration: int) -
     assert history(outcome, "user") == ["0 Idle", "3 Busy", f"{3 + duration} Idle"]
 
 
+SUBCLASS = (
+    LAMP
+    + "class Beacon extends Lamp { Beacon(Mode m) { super(m); } }"
+    + "class Signal extends Beacon { Signal(Mode m) { super(m); } }"
+)
+
+
+@pytest.mark.parametrize("of", ["Lamp", "Beacon", "Signal"])
+def test_what_is_asked_of_a_class_is_met_by_what_a_subclass_does(of: str) -> None:
+    objects = f"User user = new User(Internal); {of} lamp = new {of}(External); close();"
+    rules = "User::Busy { contains(Lamp.On on); on.n == 2; on.end == end; on.duration <= 10; meets(Idle rest); }"
+    sim = f"{SUBCLASS} Lamp::On {{ duration == 4; }} {of} lamp = new {of}(Internal); close();"
+    outcome = fly(
+        planner("user", f"{SUBCLASS}{USER}{rules}{objects}", "user", "lamp"),
+        simulator("sim", sim, "lamp"),
+        until=25,
+        goals=BUSY,
+    )
+    assert lines(outcome, "relax") == [] and open_goals(outcome) == []
+    assert history(outcome, "lamp") == ["0 Off", "3 On(n=2)", "7 Off"]
+    assert history(outcome, "user") == ["0 Idle", "3 Busy", "7 Idle"]
+
+
+def test_rules_of_the_subclass_alone_are_not_lost() -> None:
+    """A token of what was asked for would not have them: so the observation stands by itself, with them."""
+    objects = "User user = new User(Internal); Beacon lamp = new Beacon(External); close();"
+    rules = "Beacon::On { duration <= 2; } User::Busy { contains(Lamp.On on); on.n == 2; duration <= 20; }"
+    sim = f"{SUBCLASS} Lamp::On {{ duration == 4; }} Beacon lamp = new Beacon(Internal); close();"
+    outcome = fly(
+        planner("user", f"{SUBCLASS}{USER}{rules}{objects}", "user", "lamp"),
+        simulator("sim", sim, "lamp"),
+        until=25,
+        goals=BUSY,
+    )
+    assert outcome.abort is not None and outcome.abort.code == "F1"
+
+
 def test_one_tick_past_the_bound_there_are_two_repairs() -> None:
     outcome = shone(11)
     # What runs stays; what it needs is asked for anew, and lasts too long again.

@@ -4,8 +4,10 @@ from math import inf
 
 import pytest
 
+from runtime.constraints.domains.tags import INF
+from runtime.plan import tags
 from runtime.plan.readout.cause_rendering import words
-from runtime.plan.readout.statements import Term
+from runtime.plan.readout.statements import ResourceTerm, Term
 
 
 @pytest.mark.parametrize(
@@ -50,3 +52,10 @@ from runtime.plan.readout.statements import Term
 )
 def test_a_term_is_one_line(term: Term, line: str) -> None:
     assert words(term) == line
+
+
+@pytest.mark.parametrize(("at", "when"), [(17, "at 17"), (INF, "in the end"), (INF - 5, "in the end")])
+def test_a_level_that_is_too_low_at_no_certain_time_is_so_in_the_end(at: int, when: str) -> None:
+    low = ResourceTerm("pond", tags.TOO_LOW, at, at, 100.0, 100.0, 900.0, True, False, ())
+    assert words(low) == f"the level of pond falls to 0 {when}, its least is 100"
+    assert "4503" not in words(ResourceTerm("pond", tags.TOO_LOW, at, at, 1.0, 100.0, 900.0, True, at > 17, ()))

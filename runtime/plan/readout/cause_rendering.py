@@ -2,6 +2,7 @@
 
 from typing import assert_never
 
+from runtime.constraints.domains.tags import HALF_INF
 from runtime.plan import tags
 from runtime.plan.readout.statements import Argument, ResourceTerm, Term
 
@@ -65,12 +66,14 @@ def _constraint(name: str, texts: list[str]) -> str:
 def _violation(found: ResourceTerm) -> str:
     """What is wrong with a resource, and who uses it."""
     name, amount, limit = found.resource, found.amount, found.limit
-    when = f"at {found.at}" if found.at < tags.INFINITY else "in the end"
+    is_dated = found.at < HALF_INF  # a latest time that hangs on one without end lies a little before infinity
+    when = f"at {found.at}" if is_dated else "in the end"
     users = ", ".join(f"{user} {used:g}" for user, used in found.users)
     users = f": {users}" if users else ""
     if found.in_any_order:
         side = "falls below its least" if found.wrong == tags.TOO_LOW else "rises above its greatest"
-        return f"the level of {name} {side}, {limit:g}, by {found.at} in any order{users}"
+        by = f"by {found.at}" if is_dated else "in the end"
+        return f"the level of {name} {side}, {limit:g}, {by} in any order{users}"
     match found.wrong:
         case tags.TOO_LOW if found.has_helper:
             return f"the level of {name} falls to {limit - amount:g} {when}, its least is {limit:g}{users}"
@@ -81,7 +84,8 @@ def _violation(found: ResourceTerm) -> str:
         case tags.TOO_TIGHT:
             have = found.room * (found.until - found.at)
             unit = "ticks" if found.room == 1.0 else "amount times ticks"
-            return f"{name} needs {have + amount:g} of {have:g} {unit} available in [{found.at}, {found.until}]{users}"
+            until = found.until if found.until < HALF_INF else "inf"
+            return f"{name} needs {have + amount:g} of {have:g} {unit} available in [{found.at}, {until}]{users}"
         case tags.TOO_FAST:
             return f"too much of {name} flows {when}, by {amount:g}{users}"
     return f"too much of {name} is used altogether, by {amount:g}{users}"
