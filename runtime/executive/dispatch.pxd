@@ -62,3 +62,6 @@ cdef class Dispatch:
 
     @cython.locals(bench=Workbench, earliest="long long", first_end="long long", is_refused=bint)
     cpdef bint _is_void(self, request, long long token, long long key, long long tick) except -1
+
+    @cython.locals(line=TimelineState, other="long long")
+    cpdef bint _is_overtaken(self, str timeline, long long token) except -1

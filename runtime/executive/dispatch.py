@@ -242,7 +242,7 @@ class Dispatch:
             return not (has_met and request.number in self.begun)
         if bench.is_started(token, tick):
             return False
-        if request.number in self.begun:
+        if request.number in self.begun or self._is_overtaken(request.timeline, token):
             return True
         is_refused = request.number in self.refused
         if not self.is_repaired and not is_refused:
@@ -257,6 +257,17 @@ class Dispatch:
         first_end = -INFINITY if request.end[0] == -INFINITY else max(earliest + request.duration[0], request.end[0])
         asked = ((earliest, request.start[1]), (first_end, request.end[1]), request.duration)
         return wanted != asked or bench.arguments(token) != request.arguments
+
+    def _is_overtaken(self, timeline: str, token: int) -> bool:
+        """Whether the plan has come to put before a token what its owner has not been asked for yet."""
+        for line in self.timelines:
+            if line.name == timeline:
+                other = self.bench.next_of(line.object_id, line.current)
+                while other not in (NOTHING, token):
+                    if not self.is_asked(other):
+                        return True
+                    other = self.bench.following(other)
+        return False
 
 
 def _is_wider(one: tuple[tuple[int, int], ...], other: tuple[tuple[int, int], ...]) -> bool:

@@ -73,8 +73,11 @@ class PlanReactor(TeleoReactor):
         """Take note of when owners want to be asked; its own window counts what they need (T-REX 1.1)."""
         self.dispatch.owner_windows = windows
         self.reach = execution_latency + max(self.lookahead, 1)
-        self.planner.window.is_reactive = self.draws.is_reactive = self.lookahead <= 1
-        asked = [line for line in self.timelines if line.accepts_requests and not line.is_internal]
+        is_reactive = self.lookahead <= 1
+        self.planner.window.is_reactive = self.draws.is_reactive = self.bench.is_reactive = is_reactive
+        others = [line for line in self.timelines if not line.is_internal]
+        asked = [line for line in others if line.accepts_requests]
+        self.planner.window.observed = {o.object_id for o in others if not self.dispatch.takes_requests(o)}
         self.draws.asks_nobody, self.planner.window.undrawn = self.lookahead <= 1 and not asked, self.draws.undrawn
 
     # ---- the tick ----

@@ -1,6 +1,7 @@
 # The C types of `planning.py`.
 
 cimport cython
+from runtime.constraints.engine cimport Engine
 from runtime.executive.workbench cimport Workbench
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport Rows
@@ -16,7 +17,8 @@ cdef class _Window(PlanningScope):
     cdef public Workbench bench
     cdef public long long tick, end, final
     cdef public bint is_present, is_reactive
-    cdef public set ignored
+    cdef public set ignored, observed
+    cdef public list left_open
 
     @cython.locals(bench=Workbench, earliest=double, start="long long")
     cpdef bint admits_token(self, long long t) except -1
@@ -36,6 +38,12 @@ cdef class _Window(PlanningScope):
 
     @cython.locals(plan=Plan, role="long long")
     cpdef bint admits_variable(self, long long v) except -1
+
+    @cython.locals(c="long long", engine=Engine, other="long long")
+    cpdef bint _is_free(self, long long v) except -1
+
+    @cython.locals(found=bint, v="long long")
+    cpdef bint is_any_bound(self) except -1
 
 
 cdef class Planner:

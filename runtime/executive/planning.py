@@ -46,6 +46,8 @@ class _Window(PlanningScope):
         self.final = 0
         self.is_present = False
         self.is_reactive = False
+        self.observed: set[int] = set()  # timelines of others of whom nothing is asked
+        self.left_open: list[int] = []  # arguments of what is to be observed there, of any value so far
         self.undrawn: dict[int, int] = {}  # the keys of tokens, by number, for which nothing is drawn yet
         self.ignored = {o for o in range(len(bench.database.objects.names)) if bench.mode(o) == "Ignore"}
 
@@ -103,8 +105,33 @@ class _Window(PlanningScope):
         if plan.variable_role[v] in (ROLE_TOKEN, ROLE_LOCAL):
             t = int(plan.variable_owner[v])
             is_undrawn = self.undrawn and self.undrawn.get(t) == self.bench.rows.key[t]
-            return not is_undrawn and self.admits_token(t)
+            if is_undrawn or not self.admits_token(t):
+                return False
+            if self.observed and self.bench.object_of(t) in self.observed and self._is_free(v):
+                self.left_open.append(v)
+                return False
+            return True
         return not self.is_present
+
+    def _is_free(self, v: int) -> bool:
+        """Whether no guard waits for a variable, and no constraint ties it to what is open: its values are alike."""
+        engine = self.bench.engine
+        if self.bench.plan.variable_guards[v] > 0 or engine.out_head[v] >= 0 or engine.in_head[v] >= 0:
+            return False
+        for c in engine.constraints_of(v):
+            for other in engine.arguments(c):
+                if other != v and not engine.is_singleton(other):
+                    return False
+        return True
+
+    def is_any_bound(self) -> bool:
+        """Whether a constraint has come to wait for an argument that was left to the world; forgets them."""
+        found = False
+        for v in self.left_open:
+            if not self._is_free(v):
+                found = True
+        self.left_open = []
+        return found
 
 
 class Planner:
@@ -141,6 +168,9 @@ class Planner:
         """Make one decision inside [tick, end]; how the episode stands now."""
         self._begin(tick, end)
         outcome = self.solver.step()
+        if outcome == PLAN and self.window.left_open and self.window.is_any_bound():
+            self.pause()
+            return EPISODE_MOVED
         if outcome == PLAN:
             self._explain_rejections()
             self.keep()
@@ -165,6 +195,7 @@ class Planner:
         """Gather the flaws inside [tick, end], at the beginning of an episode."""
         if self.is_fresh:
             self.window.tick, self.window.end, self.window.is_present = tick, end, False
+            self.window.left_open = []
             # If nothing was propagated since the present was found without flaws, it is the agenda that is wanted.
             if self.resolved == self.bench.engine.epoch:
                 self.solver.resume()

@@ -22,6 +22,7 @@ cdef class PlanView:
     cdef public Rows rows
     cdef public str name
     cdef public dict predicates, parameters, globals, requested, moved, asked
+    cdef public bint is_reactive
     cdef public set external_objects, internal_objects, late_objects
     cdef public Recorder recorder
     cdef public long long[::1] kept_key

@@ -60,6 +60,7 @@ class PlanView:
         self.requested: dict[int, int] = {}  # token -> key
         self.moved: dict[int, None] = {}  # variables whose least value was raised since the last tidying
         self.asked: Mapping[int, object] = {}  # what owners were asked for, by the key of its token
+        self.is_reactive = False  # it looks one tick ahead at most
         self.external_objects: set[int] = set()
         self.recorder = Recorder(database, name)
         self.kept_key = array("q", [NONE]) * 64  # by row: the key of a token that is over and stays without its rules
@@ -358,8 +359,12 @@ class PlanView:
         return self.object_of(t) in self.internal_objects
 
     def must_begin(self, o: int, tick: int) -> list[int]:
-        """Undecided tokens on a timeline, not goals, that can begin at `tick` only."""
-        found = [t for t in self.undecided() if not self.is_goal(t) and self.object_of(t) == o]
+        """Undecided tokens on a timeline that can begin at `tick` only.
+
+        Of goals, a planner gives up those, for they have no plan; the world, which plans no farther, begins them.
+        """
+        found = [t for t in self.undecided() if self.object_of(t) == o and (self.is_reactive or not self.is_goal(t))]
+        found.sort(key=self.is_goal)
         return [t for t in found if self.engine.lower(self.start(t)) <= tick == self.engine.upper(self.start(t))]
 
     def waits_for_own(self, t: int, tick: int) -> bool:

@@ -1,9 +1,12 @@
 """What becomes of requests that owners refuse, give up or take up again."""
 
+from dataclasses import replace
+
 import pytest
 
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
 from runtime.executive.outcome import EventKind
+from runtime.solver.configuration.configuration import Configuration, FlawHandler, Match, default_configuration
 from tests.executive.flying import Flyer, flown, fly, history, lines, open_goals, planner, simulator
 
 ARM = (
@@ -30,6 +33,37 @@ def test_what_its_owner_rejected_is_missed_with_its_own_code() -> None:
     assert outcome.abort is not None and outcome.abort.code == "F6"
     rejected = [n for n, event in enumerate(outcome.events) if event.kind is EventKind.REJECT]
     assert rejected[0] in outcome.events[outcome.abort.event].causes
+
+
+@pytest.mark.parametrize("lookahead", [1, 20])
+def test_what_is_asked_for_is_taken_back_where_another_comes_in_front(lookahead: int) -> None:
+    # The arm is busy until 12, the first task has asked for it, and the second, which comes then, must be over before.
+    order = "if (object == task2) { any(task.Do t); t.n == 3; end <= t.start; }"
+    rules = f"Task::Do {{ equals(Arm.Act a); a.n == n; {order} }}"
+    lines_of_plan = "Task task = new Task(Internal); Task task2 = new Task(Internal); Arm arm = new Arm(External);"
+    user = planner("plan", f"{ARM}{TASK}{lines_of_plan}{rules} close();", "task task2", "arm", latency=1)
+    text = f"{ARM} Arm::Act {{ duration == n; }} Arm arm = new Arm(Internal); close();"
+    goals = (
+        GoalConfiguration("arm", "Act", start=(2, 2), parameters=(("n", 10),)),
+        GoalConfiguration("task", "Do", at=4, start=(5, 40), parameters=(("n", 3),)),
+        GoalConfiguration("task2", "Do", at=6, start=(7, 30), parameters=(("n", 4),)),
+    )
+    found = planner("owner", text, "arm", lookahead=lookahead)
+    flight = flown(user, found, until=40, goals=goals, solver=merging("Task.Do"))
+    assert flight.report.holds
+    assert lines(flight.outcome, "recall") == ["6 recall plan arm Act(n=3)"]
+    acts = ["2 Act(n=10)", "12 Act(n=4)", "16 Rest", "17 Act(n=3)"]
+    assert history(flight.outcome, "arm") == ["0 Rest", *acts, "20 Rest"]
+
+
+def merging(predicate: str) -> Configuration:
+    """A table by which what tasks ask for of a predicate must be one that is there already."""
+    match = Match(predicate=predicate, parent_predicate=predicate)
+    handler = FlawHandler("HSTSOpenConditionDecisionPoint", match, choice="mergeOnly")
+    table = default_configuration()
+    named = {each.component: each for each in table.managers}
+    named["OpenConditionManager"] = replace(named["OpenConditionManager"], handlers=(handler,))
+    return replace(table, managers=tuple(named.values()))
 
 
 def test_a_rejected_goal_comes_back_when_there_is_room() -> None:
