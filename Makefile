@@ -198,6 +198,7 @@ agents: build
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich --deep
+	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich --deep --ranks --batches 50
 
 renames: build
 	NDDLC_RENAMES=all $(PYTEST) tests/lsp/test_rename_everything.py

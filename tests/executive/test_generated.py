@@ -49,6 +49,11 @@ def test_a_random_agent_of_many_reactors_flies_as_it_must(seed: int) -> None:
     assert faults_of_seed(seed, wide=True, rich=True, deep=True)[1] == []
 
 
+@pytest.mark.parametrize("seed", [0, 3])
+def test_a_random_agent_with_priorities_and_a_shared_store_flies_as_it_must(seed: int) -> None:
+    assert faults_of_seed(seed, wide=True, ranks=True)[1] == []
+
+
 def test_what_a_sleeper_takes_in_before_it_forgets_the_past_is_on_record(tmp_path: Path) -> None:
     agent, programs = loaded(random_agent(9400102, wide=True, rich=True, deep=True).write(tmp_path))
     outcome, record = record_mission(agent, programs, 1, until=75)

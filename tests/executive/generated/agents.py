@@ -182,7 +182,7 @@ class RandomAgent:
         lines = [line for one in self.reactors for line in one.lines]
         if self.on_failure != "abort_agent" or any(goal.recall is not None for goal in self.goals):
             return None
-        if any(isinstance(one, Coded) or one.early or one.late or one.solver for one in self.reactors):
+        if any(isinstance(one, Coded) or one.early or one.late for one in self.reactors):
             return None
         if any(line.drawn for line in lines):
             return None
@@ -192,9 +192,10 @@ class RandomAgent:
         ]
         for one in self.reactors:
             steps = f' maxSteps="{one.max_steps}"' if one.max_steps is not None else ""
+            table = f' plan_cfg="{one.name}.toml"' if one.solver else ""
             text.append(
                 f'  <EuropaReactor name="{one.name}" latency="{one.latency}" lookahead="{one.lookahead}"'
-                f' model="{one.name}.nddl"{steps}>'
+                f' model="{one.name}.nddl"{steps}{table}>'
             )
             text += [f'    <Internal name="{line.name}"/>' for line in one.lines]
             watched = one.observed()

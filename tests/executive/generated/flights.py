@@ -20,6 +20,7 @@ from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import event_data
 from tests.executive.determined_models import told
 from tests.executive.generated.agents import RandomAgent
+from tests.executive.generated.batches import batch_faults
 from tests.executive.generated.oracle import Oracle
 from tests.executive.generated.promises import broken_promises
 from tests.programs import programs_of
@@ -66,8 +67,8 @@ def replayed(file: Path) -> str:
     return "" if code == 0 else f"by `nddlc replay` it is another flight: {' '.join(said.getvalue().split())[:200]}"
 
 
-def faults_of(agent: RandomAgent, replays: bool = False) -> tuple[Outcome, list[str]]:
-    """One flight of an agent, and what is wrong about it; `replays`: by the commands too."""
+def faults_of(agent: RandomAgent, replays: bool = False, batches: bool = False) -> tuple[Outcome, list[str]]:
+    """One flight of an agent, and what is wrong about it; `replays`, `batches`: by the commands too."""
     with TemporaryDirectory() as folder:
         file = agent.write(Path(folder))
         configuration, programs = loaded(file)
@@ -85,6 +86,8 @@ def faults_of(agent: RandomAgent, replays: bool = False) -> tuple[Outcome, list[
             wrong.append("by a log of its steps it is another flight")
         if replays and (said := replayed(file)):
             wrong.append(said)
+        if batches:
+            wrong += batch_faults(file)
         text = agent.agent_file()
         if text is not None:
             (Path(folder) / "agent.xml").write_text(text)

@@ -6,6 +6,7 @@ from typing import Literal
 
 from tests.executive.generated.agents import Coded, Goal, RandomAgent, Reactor
 from tests.executive.generated.deepening import deepened
+from tests.executive.generated.ranking import ranked
 from tests.executive.generated.timelines import Child, Line
 
 RELATIONS: tuple[Literal["contains", "meets", "met_by", "follows"], ...] = (
@@ -210,16 +211,17 @@ def add_hand(rich: random.Random, agent: RandomAgent) -> None:
 
 
 def random_agent(
-    seed: int, plain: bool = False, wide: bool = False, rich: bool = False, deep: bool = False
+    seed: int, plain: bool = False, wide: bool = False, rich: bool = False, deep: bool = False, ranks: bool = False
 ) -> RandomAgent:
     """The agent of a seed.
 
     A plain one can be written as an agent file of T-REX too, a wide one has guards and ties, a rich one is `enriched`,
-    a deep one is a chain of reactors with objects and enumerations (`deepened`).
+    a deep one is a chain of reactors with objects and enumerations (`deepened`), one with ranks has priorities, shared
+    stores and more simulators (`ranked`).
     """
     chance = random.Random(f"agent {seed}")
     writer = Writer(chance, more=random.Random(f"wide {seed}") if wide else None)
-    writer.reactors += [writer.simulator() for _ in range(chance.choice((1, 1, 2)))]
+    writer.reactors += [writer.simulator() for _ in range(chance.choice((1, 1, 2)) + ranks)]
     writer.reactors += [writer.planner() for _ in range(chance.choice((1, 1, 2, 2)) + wide)]
     final_tick = chance.choice((40, 60, 90))
     takers = [one for one in writer.reactors if one.lookahead > 0]
@@ -232,4 +234,5 @@ def random_agent(
     chance.shuffle(writer.reactors)
     agent = RandomAgent(f"random{seed}", final_tick, on_failure, writer.reactors, goals)
     agent = enriched(random.Random(f"rich {seed}"), agent) if rich else agent
-    return deepened(random.Random(f"deep {seed}"), agent) if deep else agent
+    agent = deepened(random.Random(f"deep {seed}"), agent) if deep else agent
+    return ranked(random.Random(f"ranked {seed}"), agent) if ranks else agent
