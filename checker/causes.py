@@ -4,11 +4,9 @@ Events of the trace point at what they caused, across reactors; inside the react
 at the conflict. "Future work" of the founding paper, section 6.
 """
 
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-
-import networkx as nx
 
 from checker.culprit import culprit_of, own_elements
 from compiler.program import TOKEN_TIMES
@@ -176,13 +174,18 @@ def in_common(deadlock: Deadlock) -> Conflict | None:
     return conflicts[weights.index(max(weights))] if conflicts else None
 
 
-def _event_graph(events: Sequence[Event]) -> "nx.DiGraph[int]":
-    """The events of a trace by index, each with arrows to what it caused."""
-    graph: nx.DiGraph[int] = nx.DiGraph()
-    graph.add_nodes_from(range(len(events)))
-    for index, causes in enumerate(causes_of(events)):
-        graph.add_edges_from((cause, index) for cause in causes)
-    return graph
+def _ways_to(target: int, events: Sequence[Event]) -> dict[int, int]:
+    """Each event that has led to one, with the next on a shortest way from it; by index."""
+    causes = tuple(causes_of(events))
+    following = dict.fromkeys(causes[target], target)
+    reached = deque(following)
+    while reached:
+        event = reached.popleft()
+        for cause in causes[event]:
+            if cause not in following:
+                following[cause] = event
+                reached.append(cause)
+    return following
 
 
 def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int, ...]:
@@ -195,16 +198,18 @@ def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int,
     target = decided_at(outcome)
     if target < 0 or not outcome.events:
         return ()
-    graph = _event_graph(outcome.events)
-    ancestors: set[int] = nx.ancestors(graph, target)
-    draws = {index: name for index, name in reversed(_drawn(outcome.events)) if index in ancestors}
+    following = _ways_to(target, outcome.events)
+    draws = {index: name for index, name in reversed(_drawn(outcome.events)) if index in following}
     wanted = [index for name in parameters for index, drawn in draws.items() if drawn == name]
     wanted += draws
+    way: list[int] = []
+    current = target
     if wanted:
-        way: list[int] = nx.shortest_path(graph, wanted[0], target)[:-1]
+        current = wanted[0]
+        while current != target:
+            way.append(current)
+            current = following[current]
     else:
-        way = []
-        current = target
         while causes := outcome.events[current].causes:
             current = max(causes)
             way.insert(0, current)
@@ -226,8 +231,8 @@ def draws_behind(outcome: Outcome) -> tuple[str, ...]:
     names = conflict.parameters if conflict is not None else ()
     if names or outcome.abort is None or not outcome.events:
         return names
-    ancestors: set[int] = nx.ancestors(_event_graph(outcome.events), outcome.abort.event)
-    return tuple(dict.fromkeys(name for index, name in _drawn(outcome.events) if index in ancestors))
+    led_there = _ways_to(outcome.abort.event, outcome.events)
+    return tuple(dict.fromkeys(name for index, name in _drawn(outcome.events) if index in led_there))
 
 
 def _drawn(events: Sequence[Event]) -> list[tuple[int, str]]:

@@ -1,15 +1,18 @@
 """Deferred imports: `import z3` costs nothing until a name of z3 is asked for; most commands never ask."""
 
+import signal
 import sys
 from importlib.util import find_spec, module_from_spec
 from threading import RLock
 from types import ModuleType
 from typing import Any
 
+from checker.batch.signals import FirstSignals
+
 # What explains and proves, large, and not needed to lint, or to fly missions that pass.
 LARGE = ("networkx", "z3")
 _LOADING = RLock()
-_BEGUN: set[str] = set()
+_BEGUN = "__begun__"
 
 
 class _Deferred(ModuleType):
@@ -20,16 +23,24 @@ class _Deferred(ModuleType):
 
     def __getattr__(self, name: str) -> Any:
         with _LOADING:  # where its own code asks, or another thread has run that code meanwhile, nothing is left to run
-            spec = self.__spec__
-            if self.__name__ not in _BEGUN and spec is not None and spec.loader is not None:
-                _BEGUN.add(self.__name__)
-                try:
-                    spec.loader.exec_module(self)
-                except BaseException:
-                    _BEGUN.discard(self.__name__)
-                    raise
-                self.__class__ = ModuleType  # type: ignore[assignment]
+            if _BEGUN not in self.__dict__:
+                self._load()
         return ModuleType.__getattribute__(self, name)
+
+    def _load(self) -> None:
+        """Run the code; a signal that comes meanwhile is heeded afterwards, for z3's own code would swallow it."""
+        assert self.__spec__ is not None
+        assert self.__spec__.loader is not None
+        self.__dict__[_BEGUN] = True
+        try:
+            with FirstSignals() as signals:
+                self.__spec__.loader.exec_module(self)
+        except BaseException:
+            del self.__dict__[_BEGUN]
+            raise
+        self.__class__ = ModuleType  # type: ignore[assignment]
+        if signals.first is not None:
+            signal.raise_signal(signals.first)
 
 
 def defer(*names: str) -> None:
@@ -40,3 +51,8 @@ def defer(*names: str) -> None:
             module = module_from_spec(spec)
             module.__class__ = _Deferred
             sys.modules[name] = module
+
+
+def defer_large() -> None:
+    """Defer what most commands never need."""
+    defer(*LARGE)

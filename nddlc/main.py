@@ -17,7 +17,6 @@ import click
 
 import runtime.build_form
 from nddl_lang.text.nearest import nearest
-from nddlc.deferral import LARGE, defer
 from nddlc.fitting import columns, fitted
 from runtime.limits import LimitError
 from runtime.user.black_box import HERE
@@ -92,7 +91,7 @@ class _Subcommands(click.Group):
         if cmd_name not in COMMANDS:
             return None
         if cmd_name in _PLANNING:
-            defer(*LARGE)
+            named("nddlc.deferral:defer_large")()
         gc.disable()  # nothing of what is imported here is garbage
         found: click.Command = named(f"{COMMANDS[cmd_name][0]}:command")
         gc.freeze()

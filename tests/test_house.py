@@ -29,7 +29,7 @@ HOMES = {
     "pygls": ("lsp/",),
     "lsprotocol": ("lsp/",),
     "z3": ("checker/smt/", "checker/proofs"),
-    "networkx": ("checker/causes", "checker/graph"),
+    "networkx": ("checker/graph",),
     "distributed": ("checker/batch/cluster",),
     "scipy": ("checker/sampling/quasi_random",),
     "click": ("nddlc/",),

@@ -5,10 +5,12 @@ import math
 import multiprocessing
 import os
 import signal
+import sys
 import time
 from collections import deque
 from collections.abc import Callable, Iterator
 from multiprocessing.process import BaseProcess
+from types import ModuleType
 
 import runtime.build_form
 from checker.batch.processor import PATIENCE, processor_seconds
@@ -22,6 +24,7 @@ from runtime.user.black_box import new_box, signal_name
 from runtime.user.fault import UserCodeError
 
 _SAFE_PATH = "PYTHONSAFEPATH"
+_IMPORTED = ("checker.batch.worker", "checker.models")  # what flies, once for all workers
 _LOOK = 0.25  # seconds from one look at a process to the next
 _START_LIMIT = 120.0  # seconds for a worker to load the models
 _LEAST_MEMORY = 1024  # MiB that a worker may take on the smallest machine
@@ -146,14 +149,13 @@ class Worker:
     """
 
     def __init__(self, load: Load, agent: AgentConfiguration, workers: int = 1) -> None:
-        context = multiprocessing.get_context("spawn")
-        self.connection, other = context.Pipe()
+        self.connection, other = multiprocessing.Pipe()
         self._box = new_box()
         self._looked = self._started = time.monotonic()
         box = "" if self._box is None else self._box.path
         memory = max(half_of_the_machine() // workers, _LEAST_MEMORY)
-        self.process: BaseProcess = context.Process(target=work, args=(other, load, agent, box, memory), daemon=True)
-        with _signals_held_back(), _safe_path(), _children_allowed():
+        self.process = _copy_or_new(other, load, agent, box, memory, dict(os.environ))
+        with _signals_held_back(), _safe_path(), _children_allowed(), _main_hidden():
             self.process.start()
         other.close()
         self.owed: deque[Task] = deque()
@@ -245,6 +247,26 @@ def unloaded(failure: LoadFailure) -> Exception:
     if failure.user_error:
         return UserCodeError(failure.user_error, failure.detail, failure.advice)
     return WorkerError(failure.detail)
+
+
+def _copy_or_new(*given: object) -> BaseProcess:
+    """A process that will work with what is given: a copy of one that has imported what flies, where that can be."""
+    if "forkserver" not in multiprocessing.get_all_start_methods():
+        return multiprocessing.get_context("spawn").Process(target=work, args=given, daemon=True)
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(list(_IMPORTED))
+    return context.Process(target=work, args=given, daemon=True)
+
+
+@contextlib.contextmanager
+def _main_hidden() -> Iterator[None]:
+    """Hide the program from a new process, which else runs it again: nothing that it is sent stands in there."""
+    program = sys.modules["__main__"]
+    sys.modules["__main__"] = ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = program
 
 
 @contextlib.contextmanager

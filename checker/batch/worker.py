@@ -1,5 +1,6 @@
 """What a worker process does: load the models once, then fly the missions it is sent, one answer each."""
 
+import os
 import signal
 import traceback
 from collections.abc import Callable
@@ -61,11 +62,17 @@ class LastWords:
     reason: str
 
 
-def work(connection: Connection, load: Load, agent: AgentConfiguration, box: str, memory: int) -> None:
+def work(
+    connection: Connection, load: Load, agent: AgentConfiguration, box: str, memory: int, environment: dict[str, str]
+) -> None:
     """Serve missions until None comes or the other end is gone; calls are noted in the black box of that name.
 
-    More than `memory` MiB are not taken: a mission that needs them is an ERROR, and the next one is flown.
+    More than `memory` MiB are not taken: a mission that needs them is an ERROR, and the next one is flown. The process
+    may be a copy of one that was started in another `environment`.
     """
+    if os.environ != environment:
+        os.environ.clear()
+        os.environ.update(environment)
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):  # these go to the whole group; the parent decides what they mean
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_IGN)

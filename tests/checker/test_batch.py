@@ -2,12 +2,14 @@
 
 import multiprocessing
 import os
+import re
 import signal
 import sqlite3
 import sys
 import threading
 import time
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -16,7 +18,7 @@ from checker.batch.pool import Batch, fly_all
 from checker.batch.process import Flyer, WorkerError, keeping_a_worker
 from checker.batch.result import MissionResult, read_record, write_record
 from checker.batch.store import open_store
-from checker.batch.worker import Load, Task
+from checker.batch.worker import Fly, Load, Task
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.one_flight import FlightSettings
@@ -58,6 +60,15 @@ def agent() -> AgentConfiguration:
     mission, _ = read_mission(Path("models/gps/mission.toml"))
     assert mission is not None
     return mission.agent
+
+
+def load_telling(agent: AgentConfiguration) -> Fly:
+    """A fake agent whose missions say what the environment is."""
+
+    def fly_telling(seed: int) -> Outcome:
+        raise ValueError(os.environ["HARBOUR"], os.getppid())
+
+    return fly_telling
 
 
 class Taker:
@@ -282,3 +293,22 @@ def test_whatever_an_event_carries_survives_json() -> None:
     result = MissionResult(1, 7, Judgement(Verdict.FAIL, "F4", reason), outcome, has_trace=True)
     assert read_record(MissionResult, write_record(result)) == result
     assert write_record(read_record(MissionResult, write_record(result))) == write_record(result)
+
+
+def test_a_worker_has_the_environment_of_now_and_never_runs_the_program_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program = ModuleType("__main__")
+    program.__file__ = str(tmp_path / "program.py")
+    (tmp_path / "program.py").write_text("raise SystemExit(5)\n", encoding="utf-8")
+    monkeypatch.setitem(sys.modules, "__main__", program)
+    told = []
+    for harbour in ("Brest", "Kiel"):
+        monkeypatch.setenv("HARBOUR", harbour)
+        with Flyer(load_telling, agent(), 30.0) as flyer:
+            told.append(flyer.fly(agent(), 1, 1).judgement.message)
+    copied = re.fullmatch(r"ValueError: \('Brest', (\d+)\)", told[0])
+    assert copied is not None
+    assert told[1] == f"ValueError: ('Kiel', {copied.group(1)})"
+    assert int(copied.group(1)) != os.getpid()  # but of what has imported all that flies
+    assert sys.modules["__main__"] is program

@@ -54,6 +54,22 @@ def test_a_deferred_module_that_fails_fails_at_each_use(importable: Path) -> Non
         named("no_such_module_anywhere:anything")
 
 
+def test_a_signal_while_a_module_is_loaded_is_heeded_once_it_is_whole(importable: Path) -> None:
+    body = """
+        import signal
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except:
+            pass
+        whole = True
+    """
+    other_files(importable, deferred_large=body)
+    defer("deferred_large")
+    with pytest.raises(KeyboardInterrupt):
+        named("deferred_large:whole")
+    assert named("deferred_large:whole")
+
+
 def test_a_mission_that_passes_needs_nothing_that_explains_or_proves(tmp_path: Path) -> None:
     mission = str(Path("models/gps/mended.toml").resolve())
     code = f"""
