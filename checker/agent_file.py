@@ -37,7 +37,7 @@ _MODELLED = {
     "maxSteps": "max_steps",
     "maxDepth": "max_depth",
 }
-_CODED = {"name": "name", "latency": "latency", "code": "code"}
+_CODED = {"name": "name", "latency": "latency", "lookahead": "lookahead", "code": "code"}
 _UNREAD = ("config", "log", "verbose", "all_plans", "relation_gv")  # what T-REX writes beside the mission
 _FLAGS = {"true": True, "1": True, "false": False, "0": False}
 _DOMAINS = ("int", "float", "bool", "string", "symbol", "enum", "date", "duration")

@@ -183,6 +183,7 @@ def _read_code(table: Table) -> CodeConfiguration:
         internal=table.strings("internal"),
         external=table.strings("external"),
         settings=given,
+        lookahead=table.whole("lookahead", 0, 0),
     )
 
 

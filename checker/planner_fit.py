@@ -41,7 +41,7 @@ def vain_requests(mission: Mission, number: int, program: Program, modes: Mappin
     What a rule may look back at may be met by what was observed, and is not told.
     """
     reactor = mission.agent.reactors[number]
-    owners = {timeline: one for one in mission.agent.reactors for timeline in one.internal}
+    owners = {timeline: one for one in (*mission.agent.reactors, *mission.agent.coded) for timeline in one.internal}
     past = {program.predicates[each].name for each in forms_of(program).looked_back}
     asked = {
         child.predicate.rpartition(".")[0]: child

@@ -49,6 +49,7 @@ _ORIGINS = {
 }
 _KINDS = {
     ReasonKind.NO_LOOKAHEAD: "its owner does not look ahead",
+    ReasonKind.DECLINED: "its owner's code does not do it",
     ReasonKind.NO_OWNER: "nobody owns the timeline any more",
     ReasonKind.UNKNOWN_PREDICATE: "the timeline has no such predicate",
     ReasonKind.MISFIT: "its arguments do not fit",

@@ -5,9 +5,10 @@ from collections.abc import Callable, Iterable, Mapping
 from math import isnan
 
 from compiler.program import DomainConstant
+from runtime.executive.commands import Commands
 from runtime.executive.configuration import CodeConfiguration
 from runtime.executive.messages import Arguments, Observation, Request, make_domain, make_tuple
-from runtime.executive.outcome import EventKind, Reason, ReasonKind, TimeBounds
+from runtime.executive.outcome import EventKind, OpenGoal, Reason, ReasonKind, TimeBounds
 from runtime.executive.reactor import Failure, Refusal, TeleoReactor
 from runtime.executive.trace import Trace
 from runtime.plan.tags import INFINITY
@@ -36,8 +37,15 @@ class CodedReactor(TeleoReactor):
         wakes_on: tuple[str, ...] | None = None,
     ) -> None:
         super().__init__(
-            configuration.name, configuration.internal, configuration.external, configuration.latency, lookahead=0
+            configuration.name,
+            configuration.internal,
+            configuration.external,
+            configuration.latency,
+            configuration.lookahead,
         )
+        self.commands = Commands(self.name, trace) if self.lookahead > 0 else None
+        self.told: dict[int, Mapping[str, Argument]] = {}  # arguments of commands, as users read them
+        self.answers: dict[str, tuple[int, ...]] = {}  # by timeline: the event behind what has just begun there
         self.files = (configuration.file,)
         self.call = (Plain(f"the reactor `{self.name}`", self.files), None, 0)
         self.watch = WATCH
@@ -63,7 +71,10 @@ class CodedReactor(TeleoReactor):
 
     def next_tick(self, tick: int) -> int:
         """When the code wants to be called."""
-        return tick + 1 if self.refused_numbers else max(tick + 1, self.wake)
+        if self.refused_numbers:
+            return tick + 1
+        wake = self.wake if self.commands is None else min(self.wake, self.commands.next_call(tick))
+        return max(tick + 1, wake)
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published."""
@@ -75,7 +86,11 @@ class CodedReactor(TeleoReactor):
 
     def synchronise(self, tick: int) -> Failure | None:
         """Let the code speak, if there is anything new."""
-        if not self.is_stirred and not self.refused_numbers and self.wake > tick:
+        commands = self.commands
+        if commands is not None:
+            commands.expire(tick)
+        is_called = self.is_stirred or self.refused_numbers or self.wake <= tick
+        if not is_called and (commands is None or not commands.calls(tick)):
             return None
         told: list[str] = []
         for timeline, observation in self.news.items():
@@ -89,7 +104,10 @@ class CodedReactor(TeleoReactor):
         news = self.told_sets.get(names)
         if news is None:
             news = self.told_sets[names] = frozenset(told)
-        now = Now(tick, dict(self.seen), news, refused, self.count)
+        if commands is None:
+            now = Now(tick, dict(self.seen), news, refused, self.count)
+        else:
+            now = Now(tick, dict(self.seen), news, refused, self.count, *commands.told(self.told))
         self.news.clear()
         self.is_stirred = False
         if self.refused_numbers:
@@ -137,7 +155,7 @@ class CodedReactor(TeleoReactor):
 
     def _take(self, now: Now) -> None:
         """Check what the code has said; raises ValueError and its like for what makes no sense."""
-        if not now.published and not now.asked and not now.recalled and not now.wakes:
+        if not now.published and not now.asked and not now.recalled and not now.wakes and not now.declined:
             return
         for one in now.published:
             if one.timeline not in self.internal:
@@ -154,9 +172,17 @@ class CodedReactor(TeleoReactor):
         for tick in now.wakes:
             if not isinstance(tick, int) or tick <= now.tick:
                 raise ValueError(f"it wants to be woken at {tick!r}, which is not later than {now.tick}")
+        for number, why in now.declined:
+            if self.commands is None or number not in self.commands.waiting or not isinstance(why, str):
+                raise ValueError(f"it declines command {number!r}, which does not wait")
+            self.commands.decline(number, why, now.tick)
         if now.wakes:
             self._wake_after(now.tick, [min(tick, _NEVER) for tick in now.wakes])
         self.published, self.recalled = now.published, now.recalled
+        if self.commands is not None:
+            for one in {each.timeline: each for each in now.published}.values():
+                given = self._arguments(one.timeline, one.predicate, one.arguments)
+                self.answers[one.timeline] = self.commands.begin(now.tick, one.timeline, one.predicate, given)
         self.asked = now.asked
         if now.recalled:
             self.asked = [asked for asked in now.asked if asked.number not in now.recalled]
@@ -174,7 +200,8 @@ class CodedReactor(TeleoReactor):
         causes = tuple(sorted(sorted(set(self.events.values()), reverse=True)[:_MOST_CAUSES]))
         for one in {each.timeline: each for each in self.published}.values():
             arguments = self._arguments(one.timeline, one.predicate, one.arguments)
-            event = self.trace.record(EventKind.OBSERVATION, self.name, one.timeline, one.predicate, arguments, causes)
+            behind = self.answers.pop(one.timeline, ()) or causes
+            event = self.trace.record(EventKind.OBSERVATION, self.name, one.timeline, one.predicate, arguments, behind)
             found.append(Observation(tick, one.timeline, one.predicate, arguments, event, self.name))
         self.published = []
         return found
@@ -233,11 +260,18 @@ class CodedReactor(TeleoReactor):
         return found
 
     def refusals(self) -> list[Refusal]:
-        """What it was asked for and does not do, which is all."""
+        """What it was asked for and does not do."""
         found = self.given_up
         if found:
             self.given_up = []
+        if self.commands is not None and self.commands.given_up:
+            found = [*found, *self.commands.given_up]
+            self.commands.given_up = []
         return found
+
+    def open_goals(self) -> list[OpenGoal]:
+        """Mandatory goals that were not achieved."""
+        return [] if self.commands is None else self.commands.open_goals()
 
     def refused(self, refusal: Refusal) -> None:
         """Tell the code at the next tick."""
@@ -246,8 +280,17 @@ class CodedReactor(TeleoReactor):
                 self.refused_numbers.append(own)
                 self.due = self.trace.tick + 1
 
+    def recall(self, number: int) -> None:
+        """Tell the code at the next tick."""
+        if self.commands is not None:
+            self.commands.recall(number)
+
     def accept(self, request: Request) -> None:
-        """It does not look ahead and takes no goals."""
+        """Keep a command for the next tick; who does not look ahead takes none."""
+        if self.commands is not None:
+            self.told[request.number] = {name: _shown(domain) for name, domain in request.arguments}
+            self.commands.add(request)
+            return
         event = self.trace.record(
             EventKind.REFUSE,
             self.name,
@@ -299,8 +342,9 @@ def _domain(name: str, value: object, kind: _Kind | None) -> DomainConstant:
     if isinstance(value, str):
         return make_domain(*_typed(name, value, kind, _NAMED), None, (value,))
     number = _number(name, value)
-    found = _typed(name, value, kind, ("int", "float") if isinstance(value, int) else ("float", "int"))
-    exact: int | float = int(number) if found[0] != "float" and number == int(number) else number
+    kinds = ("int", "float") if isinstance(value, int) else ("float", "int") if number == int(number) else ("float",)
+    found = _typed(name, value, kind, kinds)
+    exact: int | float = int(number) if found[0] != "float" else number
     return make_domain(*found, (exact, exact), None)
 
 

@@ -47,7 +47,7 @@ class CodeConfiguration:
     internal: tuple[str, ...] = ()
     external: tuple[str, ...] = ()
     settings: tuple[tuple[str, Value], ...] = ()
-    lookahead: Literal[0] = 0  # it takes no goals
+    lookahead: int = 0  # 0: it takes no commands
 
 
 @dataclass(frozen=True, slots=True)

@@ -163,6 +163,7 @@ class ReasonKind(StrEnum):
     TOO_LATE = "too late"
     DROPPED = "dropped"
     REJECTED = "rejected"
+    DECLINED = "declined"  # by the code of a reactor in Python
     RECALLED = "recalled"
     # of the present
     CLOCK = "clock"

@@ -50,6 +50,7 @@ _REASONS = {
     ReasonKind.DEPTH: "more than {limit} decisions are needed at once",
     ReasonKind.UNLOADABLE: "its model does not load: {message}",
     ReasonKind.RAISED: "its code failed: {message}",
+    ReasonKind.DECLINED: "its code does not do it: {message}",
     ReasonKind.GOALS_OPEN: "mandatory goals stayed open",
     ReasonKind.NO_RECORD: "ended at tick {tick} of {limit} without an abort record",
     ReasonKind.CUT_LOOSE: "it began, and a repair has cut it loose from what was to end it",
