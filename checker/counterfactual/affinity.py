@@ -118,6 +118,14 @@ class Affinity:
         sets = _SETTING.match(site.text)
         return sets is not None and sets.group(1) not in _TIMES and any(_is_limit(one) for one in left_out)
 
+    def is_slack(self, name: str, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether an edit adds the most, or the least, of something where a line bounds a number by it: `+ GAP_MAX`."""
+        bound = _BOUNDING.search(site.text)
+        if bound is None or not _is_limit(name) or not edit.new.endswith(f"+ {name}"):
+            return False
+        is_after = edit.begin - site.begin > bound.start()
+        return (bound.group()[0] == "<") == (is_after == _is_most(name))
+
     def is_limit(self, name: str) -> bool:
         """Whether a constant is compared with, and nothing else comes of it."""
         return name in self._bounds_only
@@ -135,6 +143,10 @@ class Affinity:
 def _is_limit(name: str) -> bool:
     """Whether a name says that it is the most or the least of something."""
     return bool({part.lower() for part in _PART.findall(name)} & (_MOST | _LEAST))
+
+
+def _is_most(name: str) -> bool:
+    return bool({part.lower() for part in _PART.findall(name)} & _MOST)
 
 
 def is_kin(one: str, other: str) -> bool:

@@ -30,6 +30,7 @@ _CULPRIT, _CONFLICT, _LOG, _OBSERVED, _COVERED, _EVENT, _AWAITED, _NAMED = 0.0, 
 _ASKER = 1.0  # of a line by which another reactor only asked for something
 _UNSAID = 3.0  # of what bears on a token, where a property says what its arguments are
 _STEP = 0.3  # of a line behind another one, by a local variable of a rule whose token was observed
+_UNDER = 0.3  # of the condition that a line of the conflict stands under
 _PASSED = 0.4  # length of the way through a line that only passes a value on
 _LEVEL = 0.5  # of what changes the level of a resource that rules something out
 _OUTSIDE = 3.0  # added where other lines contradict each other, whatever happens
@@ -154,6 +155,10 @@ def candidates_of(
         for number in graph.within(span):
             if number not in roots or roots[number][0] > _COVERED:
                 roots[number] = (_COVERED, Suspicion.COVERAGE)
+    for number, (far, source) in list(roots.items()):
+        for condition in graph.conditions(number) if far <= _CONFLICT else ():
+            if condition not in roots or roots[condition][0] > far + _UNDER:
+                roots[condition] = (far + _UNDER, source)
     given = {number: far for number, (far, _) in roots.items()}
     distances, reached = graph.distances(given), graph.distances(given, _PASSED)
     seen = held | _named_predicates(outcome)

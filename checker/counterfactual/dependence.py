@@ -180,6 +180,11 @@ class Dependence:
         found |= {one for key in read for one in self._users[key] if self._is_behind(one, key)}
         return {self.sites[one] for one in found} - {site}
 
+    def conditions(self, site: int) -> Iterator[int]:
+        """The conditions that a line stands under."""
+        for key in sorted((one for one in self._keys[site] if "guard" in one), key=str):
+            yield from sorted(one for one in self._users[key] if one != site and self._is_behind(one, key))
+
     def _is_behind(self, site: int, key: Key) -> bool:
         """Whether a site is the number that lines read by a key, or the condition that they stand under."""
         return self.sites[site].is_number if key[0] == "global" else not self.sites[site].text.endswith(";")

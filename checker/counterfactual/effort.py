@@ -5,12 +5,15 @@ Processor time hardly depends on what else a machine does, so causes do not eith
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from checker.batch.processor import PATIENCE
 
 MOST_FLIGHTS = 40
 MOST_SECONDS = 60.0
+_CHANGES = 1250  # that so many flights as were asked for are enough for
+_MOST_TIMES = 3  # as many flights
+_EVENTS = 240_000  # of all flights together: a long mission is flown no more often than was asked for
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +27,11 @@ class Bounds:
     seconds: float = MOST_SECONDS
     is_cancelled: Callable[[], bool] = field(default=lambda: False)
     spent: Callable[[], float] = time.process_time
+
+    def grown(self, changes: int, events: int) -> "Bounds":
+        """The bounds for so many changes that may be tried on a mission of so many events: a large model has more."""
+        wanted = min(self.flights * changes // _CHANGES, _MOST_TIMES * self.flights, _EVENTS // max(events, 1))
+        return replace(self, flights=max(self.flights, wanted))
 
 
 class Stopwatch:

@@ -1,7 +1,7 @@
 """Sites in, out with edits that write a duration for a start or end; and whether times of one kind are compared.
 
 `probe.start >= open.duration + SOAK_MIN;` holds a moment to a span: `open.end` is meant. Two moments are never added,
-and none is multiplied.
+and none is multiplied; none is a product or a bare number. By `end == until` one may be said, or a span.
 """
 
 import math
@@ -21,20 +21,25 @@ _MOMENT, _END = re.compile(r"(?:\w+\.)?(?:start|end)"), re.compile(r"\b(?:start|
 _LIMITED = re.compile(r"\s*(?:\w+\.)?(start|end|duration)\s*(?:<=|>=|<|>)\s*(?:\d+|[A-Z][A-Z0-9_]*)\s*;")
 # How often a time is held to a bare constant, before any line of the model is read: few know when anything comes.
 _USUAL = {"duration": 4.0, "end": 1.5, "start": 1.0}
+_WORD, _NUMBER = re.compile(r"[A-Za-z_]\w*"), re.compile(r"\s*\d[\d.]*\s*")
 _POINT = re.compile(r"(?<![\w.])((?:\w+\.)?)(start|end|duration)\b")
-_SPAN = "duration"
+_SPAN, _EVENT_TIME = "duration", "time"
 _OTHERS = {"start": (_SPAN,), "end": (_SPAN,), _SPAN: ("end", "start")}
 
 
 def with_durations(sites: Sequence[EditSite]) -> list[EditSite]:
-    """All sites; limits have edits that write a duration for a moment; a mixed line also the other way round."""
+    """All sites, with edits that write a duration for a moment: of limits, and where `==` sets a moment from no time.
+
+    A mixed line has them also the other way round.
+    """
     return [replace(site, edits=(*site.edits, *_exchanged(site))) if site.rule else site for site in sites]
 
 
 def _exchanged(site: EditSite) -> Iterator[SmallEdit]:
     text = compared(site.text)
     is_limit, is_mixed = _SIDES.fullmatch(text) is not None and "==" not in text, _is_mixed(site.text)
-    for found in _POINT.finditer(site.text) if is_limit or is_mixed else ():
+    is_set = _set_from(text) is not None
+    for found in _POINT.finditer(site.text) if is_limit or is_mixed or is_set else ():
         if found.group(2) == _SPAN and not is_mixed:
             continue  # what a duration is held to is hardly a moment
         line = site.first + site.text.count("\n", 0, found.start())
@@ -74,10 +79,22 @@ def mixes_times(edit: SmallEdit, site: EditSite) -> bool:
     return _is_mixed(site.after(edit)) and not _is_mixed(site.text)
 
 
+def _set_from(text: str) -> str | None:
+    """What a line says by `==` that a single moment is, where that has no time of a token; None in other lines."""
+    sides = _SIDES.fullmatch(text) if "==" in text else None
+    for one, other in (sides.groups(), sides.groups()[::-1]) if sides is not None else ():
+        if _MOMENT.fullmatch(one.strip()) and not {*_OTHERS, _EVENT_TIME} & set(_WORD.findall(other)):
+            return other
+    return None
+
+
 def _is_mixed(text: str) -> bool:
     sides = _SIDES.fullmatch(compared(text))
     if sides is None:
         return False
+    said = _set_from(compared(text))
+    if said is not None and (_NUMBER.fullmatch(said) or any(mark in said for mark in "*/")):
+        return True
     if any(_SCALED.search(side) for side in sides.groups()):
         return True
     if "==" in text and _ROUNDED.search(text) and any(_MOMENT.fullmatch(side.strip()) for side in sides.groups()):

@@ -101,6 +101,7 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     text = text_of(world.agent, models)
     candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties, exercised, text)
     last = mission_lines(world.mission, outcome) if world.mission is not None else ()
+    bounds = bounds.grown(sum(len(one.site.edits) for one in candidates), len(outcome.events))
     trials = try_out(candidates, missions, usage, partial(_fly, world), bounds, last, graph.beside)
     return replace(trials, loose=loose_ends(graph, candidates, usage))
 

@@ -28,6 +28,8 @@ from checker.mutation.missing_lines import is_namesake, said_of
 _TWICE = re.compile(r"([A-Za-z_][\w.]*)\s*[+*]\s*\1")  # one name, added to itself or multiplied
 _LOOSE = "any"  # the relation that demands nothing
 _TERM, _TERM_SOON = 3.0, 0.9  # of a sum or product without a part, and when that is tried
+_STRAY, _STRAY_SOON = 2.5, 1.2  # odds that a constant does not belong there which does elsewhere, and how much sooner
+_OWN_USE = 1.0  # odds that a constant is meant where it has its only use
 _REPEATED, _REPEATED_SOON = 0.5, -0.2  # the same where both parts are one name
 _ADDED, _ADDED_SOON, _ADDED_LATER = 2.0, -0.4, 0.1  # of what nothing reads, and when: if a line speaks of it, if not
 _LINE, _LINE_SOON = 1.0, -0.4  # of a line that is missing, and when it is tried if no other can be meant there
@@ -154,6 +156,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             if _TWICE.fullmatch(edit.old):
                 return _REPEATED
             odd = _NAMED * usage.affinity.drops_limit(edit, site)
+            strays = usage.strays(edit, site)
+            odd += _STRAY if strays > 0 else _OWN_USE * strays
             return _TERM - odd - _ALIKE * usage.mentions.makes_alike(edit, site) - _DOUBLED * leaves_one(edit)
         case EditKind.VALUE:
             is_case = edit.old not in TRUTHS and not site.text.endswith(";")
@@ -226,7 +230,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return -1.0  # seen without any flight
         case EditKind.TERM:
             is_alike = usage.mentions.makes_alike(edit, site) or _TWICE.fullmatch(edit.old)
-            soon = _TERM_SOON - _DOUBLED * leaves_one(edit)
+            soon = _TERM_SOON - _DOUBLED * leaves_one(edit) - _STRAY_SOON * (usage.strays(edit, site) > 0)
             return _REPEATED_SOON if is_alike else soon + _LATER * usage.passing
         case EditKind.NAME if usage.mentions.says_the_same(edit, site):
             return _LATE

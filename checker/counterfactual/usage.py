@@ -88,9 +88,10 @@ class Usage:
         return _PRESENT * min(self.counts[edit.new], _MOST_PRESENT) + _CALLED * bears
 
     def is_wanted(self, edit: SmallEdit, site: EditSite) -> bool:
-        """Whether what an edit adds is a variable of the rule, or bears the name of what the line is about."""
+        """Whether an edit adds a variable of the rule, a slack, or what bears the name of what the line is about."""
         name = WORD.findall(edit.new)[-1]
-        return name not in self.named or self.affinity.is_about(name, site)
+        is_limit = self.affinity.is_slack(name, edit, site)
+        return name not in self.named or is_limit or self.affinity.is_about(name, site)
 
     def gain(self, edit: SmallEdit, site: EditSite) -> float:
         """How much better the new constant of a line belongs there than the old one."""
@@ -108,6 +109,20 @@ class Usage:
         others = {one.new for one in site.rivals(edit, EditKind.VALUE)}
         is_last = edit.new not in TRUTHS and self.counts[edit.old.rpartition(".")[2]] == 1
         return is_last and all(self.counts[other] for other in others)
+
+    def strays(self, edit: SmallEdit, site: EditSite) -> int:
+        """1 where an edit leaves out a constant that belongs into other lines only, or keeps it elsewhere in its line.
+
+        -1 where it has its only use here. Of the constants that lines of right models add or multiply with, one in 36
+        is such a stray.
+        """
+        left_out = Counter(WORD.findall(edit.old)) - Counter(WORD.findall(edit.new))
+        if not left_out or any(name not in self.named or count > 1 for name, count in left_out.items()):
+            return 0
+        if any(self.counts[name] == 1 for name in left_out):
+            return -1
+        kept = WORD.findall(site.after(edit))
+        return int(all(name in kept or self.affinity.of(name, site) == 0.0 for name in left_out))
 
     def twins(self, edit: SmallEdit, site: EditSite) -> int:
         """1 for a change after which a line is written as one of another rule, less 1 for a line that is so already.

@@ -1,6 +1,7 @@
 """Sites in, the same out with one more kind of edit: a number that nothing reads, as a term or factor of a line.
 
 Who declares a constant, or sets a local variable, means it to be read: where no line does, an expression may lack it.
+So may a limit that holds two moments to each other without any slack, where other limits of the file have one.
 """
 
 import re
@@ -16,6 +17,8 @@ _NUMBER = re.compile(r"(int|float)\s+(\w+)\s*(?:=.*)?;", re.DOTALL)
 _SET = re.compile(r"\s*(\w+)\s*==")
 _COMPARED = re.compile(r"([^<>=!&|?]+?)(?:==|<=|>=|<|>)([^<>=!&|?]+);", re.DOTALL)
 _ROUNDED = re.compile(r"\b(?:ceil|floor|round)\s*\(")
+_BARE = re.compile(r"\s*\w+\.start\s*(?:<=|<)\s*(?:\w+\.)?(?:start|end)\s*;")
+_SLACK = re.compile(r"\s*[\w.]+\s*(?:<=|<)\s*[\w.]+\s*\+\s*([A-Za-z_]\w*)\s*;")
 _SAMPLING = "sampledParameter"
 _POINTS = ("start", "end")
 _MOST_IDLE = 4  # names that nothing reads: where there are more, that says little
@@ -31,6 +34,10 @@ def with_additions(sites: Sequence[EditSite]) -> list[EditSite]:
         if site.rule and not site.is_rule:
             scopes[site.file, site.scope].append(site)
     files = {file for file, _ in scopes}
+    slacks: dict[str, Counter[str]] = defaultdict(Counter)
+    for site in sites:
+        if (limit := _SLACK.fullmatch(site.text)) is not None:
+            slacks[site.file][limit.group(1)] += 1
     found: dict[EditSite, list[SmallEdit]] = defaultdict(list)
     for (file, _), lines in scopes.items():
         near = [one for one in constants if one.file == file or one.file not in files]
@@ -39,6 +46,10 @@ def with_additions(sites: Sequence[EditSite]) -> list[EditSite]:
         for site in lines if idle else ():
             for name, kind, is_local in idle:
                 found[site] += _grown(site, name, kind == "float", is_local)
+        for site in lines:
+            if _BARE.fullmatch(site.text):
+                usual = [name for name, _ in slacks[file].most_common(_MOST_IDLE)]
+                found[site] += [one for name in usual for one in _grown(site, name, False, False) if "+" in one.new]
     return [replace(site, edits=(*site.edits, *found[site])) if found.get(site) else site for site in sites]
 
 

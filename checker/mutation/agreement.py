@@ -1,7 +1,8 @@
 """Both sides of `==` in; out: what else may be named where they are not of one type, as the other side's type asks.
 
 `late == seats` holds a truth value to a number, and `ferment.end == wort` a moment to litres: no comparison of the two
-can be meant. What a rule computes for itself may be a span of time; what a token's parameter measures hardly is.
+can be meant. What a rule computes for itself may be a span of time; what a token's parameter measures hardly is. A
+number may be a moment: what else may be named beside one is offered all the same.
 """
 
 from collections.abc import Iterator, Mapping
@@ -14,6 +15,7 @@ from nddl_lang.text.source import Span
 _NUMBERS = ("int", "float")
 _MOMENTS, _SPAN = ("start", "end"), "duration"
 _MOMENT = "moment"
+_EVENT_TIME = "time"  # of what changes a resource
 
 
 class Agreement:
@@ -25,6 +27,8 @@ class Agreement:
     def kind_of(self, text: str, names: LineScope) -> str:
         """The type of a variable, constant or time as it is written; empty where it is none of these."""
         label, _, last = text.rpartition(".")
+        if _is_event_time(text, names):
+            return _MOMENT
         if label in ("", *names.tokens) and not names.type_of(tuple(text.split("."))):
             if last in _MOMENTS:
                 return _MOMENT
@@ -46,10 +50,14 @@ class Agreement:
 
         A parameter of a token that is held to a duration is to be said, so the duration is what is mistaken.
         """
-        wanted = dict(self.wanted(node, names)) if self.is_apart(node, names) else {}
+        wanted = dict(self.wanted(node, names))
+        is_apart = self.is_apart(node, names)
         for span, kind in wanted.items():
             other = next(one for one in wanted if one is not span)
-            if kind != _SPAN:
+            kinds = {kind, wanted[other]}
+            is_said = kinds == {_SPAN, "int"} and "." in other.text
+            is_doubtful = kinds == {_MOMENT, "int"} if kind == _MOMENT else is_said
+            if kind != _SPAN and (is_apart or is_doubtful):
                 yield from ((span, name) for name in self._named(kind, names) if name != other.text)
 
     def is_apart(self, node: Any, names: LineScope) -> bool:
@@ -57,7 +65,8 @@ class Agreement:
         if not (isinstance(node, BinaryExpr) and isinstance(node.left, PathExpr) and isinstance(node.right, PathExpr)):
             return False
         wanted = [(span.text, self.kind_of(span.text, names)) for span, _ in self.wanted(node, names)]
-        return bool(wanted) and _is_apart(*wanted[0], *wanted[1])
+        is_event = any(_is_event_time(text, names) for text, _ in wanted)  # it comes when a token begins or ends
+        return bool(wanted) and (is_event or _is_apart(*wanted[0], *wanted[1]))
 
     def _named(self, kind: str, names: LineScope) -> Iterator[str]:
         if kind == _MOMENT:
@@ -65,6 +74,12 @@ class Agreement:
             yield from (f"{label}.{word}" if label else word for word in _MOMENTS for label in labels)
         else:
             yield from (name for name in names.alike(kind) if names.type_of(tuple(name.split("."))) == kind)
+
+
+def _is_event_time(text: str, names: LineScope) -> bool:
+    """Whether a path is the time at which something changes a resource."""
+    label, _, last = text.rpartition(".")
+    return label in names.tokens and names.tokens[label].is_event and last == _EVENT_TIME
 
 
 def _is_apart(one: str, kind: str, other: str, other_kind: str) -> bool:

@@ -85,6 +85,15 @@ def causes(folder: Path, capsys: pytest.CaptureFixture[str], model: str) -> list
     return found
 
 
+def test_a_line_of_a_branch_leads_to_its_condition(tmp_path: Path) -> None:
+    (tmp_path / "crane.nddl").write_text(MODEL)
+    analysis = analyse_file(tmp_path / "crane.nddl")
+    sites = sites_of(load_graph(tmp_path / "crane.nddl", ()))
+    graph = Dependence([compile_model(analysis)], sites)
+    (number,) = (number for number, site in enumerate(sites) if site.text == "duration == HEAVY_TIME;")
+    assert [sites[one].text for one in graph.conditions(number)] == ["load == Load.heavy"]
+
+
 def test_the_model_is_right_as_it_stands(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert causes(tmp_path, capsys, MODEL) == []
 

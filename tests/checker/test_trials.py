@@ -117,6 +117,14 @@ def test_each_of_many_values_of_an_enumeration_is_tried_later_than_the_only_othe
     assert only is not None and first is not None and only < first == second
 
 
+def test_a_large_model_has_more_flights_where_a_mission_is_short() -> None:
+    assert Bounds(40).grown(900, 1000).flights == 40
+    assert Bounds(40).grown(2500, 1000).flights == 80
+    assert Bounds(40).grown(20_000, 1000).flights == 120
+    assert Bounds(40).grown(20_000, 30_000).flights == 40
+    assert Bounds(0).grown(20_000, 1000).flights == 0
+
+
 def test_a_word_that_left_a_flight_without_an_end_waits_at_other_lines() -> None:
     def candidate(text: str) -> Candidate:
         edits = tuple(SmallEdit(EditKind.VALUE, "a.nddl", 3, 4, "red", new, 1) for new in ("amber", "green"))
