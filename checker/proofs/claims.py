@@ -6,6 +6,7 @@ names are whole numbers. A constraint that is not here has no translation, and i
 
 from collections.abc import Callable, Sequence
 from itertools import combinations, pairwise
+from math import isinf
 from typing import Any
 
 import z3
@@ -27,15 +28,15 @@ def claim_of(name: str, numbers: Sequence[Number]) -> Claim | None:
 
 
 def bounds_claim(term: Term, number: Callable[[Argument], Number]) -> Claim:
-    """What the bounds of a variable demand, by its numbers."""
+    """What the bounds of a variable demand, by its numbers; nothing where it is infinite, as a capacity without end."""
     variable, lower, upper = term.arguments
     target = number(variable)
     if term.values and isinstance(variable, VariableName) and variable.kind in _NAMED:
         return z3.Or(*[target == number(value) for value in term.values])
     parts = []
-    if not (isinstance(lower, int | float) and lower <= -ENDLESS):
+    if not (isinstance(lower, int | float) and (lower <= -ENDLESS or isinf(lower))):
         parts.append(target >= number(lower))
-    if not (isinstance(upper, int | float) and upper >= ENDLESS):
+    if not (isinstance(upper, int | float) and (upper >= ENDLESS or isinf(upper))):
         parts.append(target <= number(upper))
     return z3.And(*parts)
 

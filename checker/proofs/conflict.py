@@ -191,7 +191,8 @@ class _Reader:
             case NewGlobal(domain=domain) if term.name == "bounds" and domain is not None:
                 return self.symbols.within(self.number(term.arguments[0]), domain)
             case NewObject() if term.name == "bounds":
-                return given_claim(instruction, variables[0].name, self.number(variables[0]), binding)
+                given = given_claim(instruction, variables[0].name, self.number(variables[0]), binding)
+                return None if given is None else z3.And(given, bounds_claim(term, self.number))
             case NewVariable(name=str()) if term.name == "bounds":
                 local = binding.local(instruction.slot)
                 return None if local is None else domain_claim(instruction, local, binding)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from checker.proofs.claims import Number
 from checker.proofs.operands import BodyLayout, ProgramNames, Symbols, variable_name
 from checker.proofs.places import WrittenLine
-from compiler.program import LocalVariable, Operand, TokenVariable
+from compiler.program import Field, LocalVariable, Operand, TokenVariable
 from runtime.plan.readout.names import TokenName, VariableName
 from runtime.plan.readout.statements import Term
 
@@ -29,6 +29,7 @@ class TermBinding:
         self.reactor = reactor
         self.tokens: dict[int, TokenName] = {} if own is None else {0: own}
         self.slots: dict[int, VariableName] = {}
+        self.members: dict[tuple[Operand | None, tuple[str, ...]], VariableName] = {}
 
     def align(self, operands: Sequence[Operand], term: Term) -> bool:
         """Take the variables of a term that has the operands' order for them; False where it has not."""
@@ -48,6 +49,8 @@ class TermBinding:
                         return False
                 case LocalVariable(slot=slot):
                     self.slots[slot] = named
+                case Field(base=base, members=members):
+                    self.members[base, members] = named
                 case _:
                     pass
         return True
@@ -83,7 +86,10 @@ class TermBinding:
         return self.symbols.variable(f"{self.reactor}:{name}", code.kind)
 
     def member(self, base: Operand | None, members: Sequence[str]) -> Number | None:
-        """A member, where the engine names one that is called so."""
+        """A member, where the engine names it, or one only that is called so and is no other's."""
+        if (known := self.members.get((base, tuple(members)))) is not None:
+            return self.symbols.variable(f"{known.reactor}:{known}", known.kind)
         ends = "." + members[-1] if members else "."
-        found = [one for one in self.variables if one.token is None and one.name.endswith(ends)]
+        others = self.members.values()
+        found = [one for one in self.variables if one.token is None and one.name.endswith(ends) and one not in others]
         return self.symbols.variable(f"{self.reactor}:{found[0]}", found[0].kind) if len(found) == 1 else None
