@@ -63,18 +63,28 @@ def mission_of_run(what: str) -> tuple[str, int | None]:
 
 def model_files(command: Function) -> Function:
     """Let a command take model files and the directories of their includes."""
-    command = click.option(
-        "-I", "--include", "directories", multiple=True, metavar="DIR", help="Look for included files here too."
-    )(command)
-    command = click.option(
-        "--dialect", type=click.Choice(["nddl3", "nddlc"]), help="The same option as before the command."
-    )(command)
-    return click.argument("files", nargs=-1, required=True, metavar="FILE...")(command)
+    return click.argument("files", nargs=-1, required=True, metavar="FILE...")(_reading(command))
 
 
 def model_paths(command: Function) -> Function:
-    """Like `model_files`, for a command that takes directories as well."""
-    return model_files(command)
+    """Like `model_files`, for a command that takes directories as well, and without any the project's."""
+    return click.argument("files", nargs=-1, metavar="[FILE...]", callback=_named_or_project)(_reading(command))
+
+
+def _reading(command: Function) -> Function:
+    """The options of commands that read models."""
+    command = click.option(
+        "-I", "--include", "directories", multiple=True, metavar="DIR", help="Look for included files here too."
+    )(command)
+    return click.option(
+        "--dialect", type=click.Choice(["nddl3", "nddlc"]), help="The same option as before the command."
+    )(command)
+
+
+def _named_or_project(_context: click.Context, _parameter: click.Parameter, names: tuple[str, ...]) -> tuple[str, ...]:
+    """The files that are named, else the folder of the settings that hold here, else this folder."""
+    settings = None if names else find_configuration(Path())
+    return names or ("." if settings is None else os.path.relpath(settings.parent, real_path(Path())),)
 
 
 def models_in(names: tuple[str, ...], directories: tuple[str, ...]) -> list[Path]:

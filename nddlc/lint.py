@@ -67,7 +67,7 @@ def command(
     """Report everything that is wrong with models.
 
     FILE is a model, a mission file (.toml, or T-REX's .xml), or a directory with models; of those, files that others
-    include are looked at as parts of them.
+    include are looked at as parts of them. Without one it is the folder of the project's settings, or this one.
     Errors stop a model, warnings are very likely mistakes, remarks are worth a look. Settings stand in nddlc.toml or
     in [tool.nddlc] of pyproject.toml, upwards from each file. Ends with 0 if nothing weighs as much as --fail-on,
     with 1 otherwise.

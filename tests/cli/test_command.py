@@ -118,7 +118,7 @@ UNUSABLE = [
     (["lint", "no_such.nddl"], "no file `no_such.nddl`"),
     (["load", "."], "`.` is a directory"),
     (["load", "--include", "nowhere", "x.nddl"], "no directory `nowhere`"),
-    (["lint"], "Missing argument 'FILE...'"),
+    (["load"], "Missing argument 'FILE...'"),
     (["lint", "--fromat", "json", "x.nddl"], "--format"),
     (["lint", "--format", "yaml", "x.nddl"], "'yaml' is not one of"),
     (["lnit", "x.nddl"], "did you mean `lint`?"),
@@ -130,6 +130,19 @@ UNUSABLE = [
 def test_an_unusable_command_line_is_told_from_a_finding(words: list[str], message: str, capsys: Captured) -> None:
     assert run(words) == 2
     assert message in capsys.readouterr().err
+
+
+def test_lint_looks_at_the_project_where_no_file_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+) -> None:
+    (tmp_path / "models" / "deep").mkdir(parents=True)
+    (tmp_path / "models" / "broken.nddl").write_text(BROKEN, encoding="utf-8")
+    monkeypatch.chdir(tmp_path / "models" / "deep")
+    assert run(["lint"]) == 2
+    assert "there is no model (.nddl) in `.`" in capsys.readouterr().err
+    (tmp_path / "nddlc.toml").write_text("", encoding="utf-8")
+    assert run(["lint"]) == 1
+    assert "../../models/broken.nddl:2" in capsys.readouterr().out
 
 
 def test_a_file_that_may_be_meant_is_named(lamp: str, capsys: Captured) -> None:
