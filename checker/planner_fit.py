@@ -8,6 +8,7 @@ from checker.mission import Mission
 from compiler.instructions import all_instructions
 from compiler.program import Child, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note
+from runtime.executive.configuration import CodeConfiguration, ReactorConfiguration
 from runtime.executive.outlines import forms_of
 from runtime.solver.configuration.configuration import Configuration, default_configuration, with_resources
 
@@ -41,7 +42,8 @@ def vain_requests(mission: Mission, number: int, program: Program, modes: Mappin
     What a rule may look back at may be met by what was observed, and is not told.
     """
     reactor = mission.agent.reactors[number]
-    owners = {timeline: one for one in (*mission.agent.reactors, *mission.agent.coded) for timeline in one.internal}
+    placed: list[ReactorConfiguration | CodeConfiguration] = [*mission.agent.reactors, *mission.agent.coded]
+    owners = {timeline: one for one in placed for timeline in one.internal}
     past = {program.predicates[each].name for each in forms_of(program).looked_back}
     asked = {
         child.predicate.rpartition(".")[0]: child

@@ -337,7 +337,7 @@ def _domain(name: str, value: object, kind: _Kind | None) -> DomainConstant:
     if isinstance(value, bool):
         return make_domain(*_typed(name, value, kind, ("bool",)), None, (value,))
     if isinstance(value, frozenset) and value:
-        kinds = _NAMED if all(isinstance(each, str) for each in value) else ("int", "float", "bool")
+        kinds: tuple[str, ...] = _NAMED if all(isinstance(each, str) for each in value) else ("int", "float", "bool")
         return make_domain(*_typed(name, value, kind, kinds), None, tuple(sorted(value, key=repr)))
     if isinstance(value, str):
         return make_domain(*_typed(name, value, kind, _NAMED), None, (value,))
