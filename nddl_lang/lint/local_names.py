@@ -63,6 +63,11 @@ def lint_unused_locals(part: Part) -> Iterator[Finding]:
                     continue
                 if declarator.name.span not in _hidden_places(part):
                     yield _unused_local(node, index, declarator, variable)
+        for loop in part.all(Foreach):
+            turned = part.tables.declared.get(loop.variable)
+            if isinstance(turned, Variable) and turned not in used and loop.body:
+                help_ = "each turn of the loop asks for the same; say of which object it speaks"
+                yield UNUSED_LOCAL.at(loop.variable.span, help=help_, name=loop.variable.name)
     elif constructors := part.all(ConstructorDecl):
         used = used_variables(part)
         for constructor in constructors:

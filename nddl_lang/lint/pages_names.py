@@ -29,7 +29,7 @@ _WHOLE = (
 NAME_PAGES = (
     RulePage(
         UNUSED_LOCAL,
-        "A rule declares a local variable and never refers to it.",
+        "A rule declares a local variable, or that of a loop, and never refers to it.",
         "It says nothing about the plan; of a class, an enum or a bool it even is a decision that a search has to "
         "take.",
         _ARM + "Arm::grab { int speed; force >= 2; }\n",
