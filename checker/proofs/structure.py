@@ -32,6 +32,7 @@ class Structure:
     variables: dict[str, Number] = field(default_factory=dict)
     times: list[tuple[str, str, str]] = field(default_factory=list)  # start, end and duration of each token
     asked: list[tuple[str, str, str]] = field(default_factory=list)  # reactor, variables and name of what it asked for
+    arguments: dict[str, tuple[Value, ...]] = field(default_factory=dict)  # of that, by its variables
     earliest: dict[str, int] = field(default_factory=dict)  # starts that the mission file asks for
     draws: dict[str, dict[str, None]] = field(default_factory=dict)  # variables of each sampled parameter
     untold: dict[str, int] = field(default_factory=dict)
@@ -171,7 +172,9 @@ class _ReactorReader:
             and str(token.object) in self.configuration.external
             and isinstance(token.end, int)
         ):
-            self.found.asked.append((self.configuration.name, f"{self.configuration.name}:{token.key}", name))
+            variables = f"{self.configuration.name}:{token.key}"
+            self.found.asked.append((self.configuration.name, variables, name))
+            self.found.arguments[variables] = token.arguments
         times = (end, length) if isinstance(token.end, int) else (None, None)
         name_of_end, name_of_length = (self.symbols.name_of(each) for each in times)
         self.found.times.append((self.symbols.name_of(start), name_of_end, name_of_length))

@@ -76,7 +76,8 @@ class Spell(NamedTuple):
     is_known: bool
 
 
-_Request = tuple[str, str, int]  # reactor, predicate, the how manieth of its kind
+_Arguments = tuple[Value, ...]
+_Request = tuple[str, str, _Arguments | None, int]  # reactor, predicate, arguments (None: any), the how manieth
 Flown = Mapping[_Request, Spell]
 
 
@@ -93,24 +94,32 @@ def requests_flown(agent: AgentConfiguration, record: MissionRecord) -> Flown:
     found: dict[_Request, Spell] = {}
     for configuration, reactor in zip(agent.reactors, record.reactors, strict=True):
         asked = [
-            (token.start, token.predicate, str(token.object))
+            (token.start, token.predicate, token.arguments, str(token.object))
             for token in reactor.tokens
             if token.origin != "observation" and str(token.object) in configuration.external
             if token.state == "active" and isinstance(token.start, int)
         ]
-        for request, start, line in _numbered(configuration.name, asked):
+        for requests, start, line in _numbered(configuration.name, asked):
             spell = done.get((owners.get(line, ""), line, start))
             if spell is not None:
-                found[request] = spell
+                found |= dict.fromkeys(requests, spell)
     return found
 
 
-def _numbered(reactor: str, asked: Iterable[tuple[int, str, str]]) -> Iterator[tuple[_Request, int, str]]:
-    """Starts, predicates and what else is told of requests, in the order of time, counted by predicate."""
-    counts: Counter[str] = Counter()
-    for start, predicate, more in sorted(asked):
-        counts[predicate] += 1
-        yield (reactor, predicate, counts[predicate]), start, more
+def _numbered(
+    reactor: str, asked: Iterable[tuple[int, str, _Arguments, str]]
+) -> Iterator[tuple[tuple[_Request, _Request], int, str]]:
+    """Requests with their starts and what else is told, in the order of time, counted with their arguments and without.
+
+    Two jobs of other arguments may come in another order in another flight.
+    """
+    counts: Counter[tuple[str, _Arguments | None]] = Counter()
+    for start, predicate, arguments, more in sorted(asked, key=lambda one: (one[0], one[1], one[3])):
+        names: list[_Request] = []
+        for each in (arguments, None):
+            counts[predicate, each] += 1
+            names.append((reactor, predicate, each, counts[predicate, each]))
+        yield (names[0], names[1]), start, more
 
 
 def plan_networks(
@@ -148,8 +157,11 @@ class _Builder:
         durations = []
         endless = []
         asked = [each for each in self.structure.asked if each[0] == self.reactor]
-        begun = [(self._flown(each + ".start"), name.partition("#")[0], each) for _, each, name in asked]
-        self.requests = {variable: request for request, _, variable in _numbered(self.reactor, begun)}
+        begun = [
+            (self._flown(each + ".start"), name.partition("#")[0], self.structure.arguments[each], each)
+            for _, each, name in asked
+        ]
+        self.requests = {variable: requests for requests, _, variable in _numbered(self.reactor, begun)}
         for number, (_, variable, name) in enumerate(asked):
             taken = self._taken(variable, name, asked[:number] + asked[number + 1 :])
             if taken is None:
@@ -208,9 +220,23 @@ class _Builder:
     def _seen(self, variable: str, source: str, point: str) -> Iterator[tuple[int, bool]]:
         """How long a token took in each flight, from a time of another on, and whether that is known exactly."""
         for flight in self.flights:
-            token, other = flight.get(self.requests[variable]), flight.get(self.requests[source])
+            token, other = self._alike(flight, variable), self._alike(flight, source)
             if token is not None and other is not None and (point == ".start" or other.is_known):
                 yield token.end - other[_POINTS.index(point)], token.is_known
+
+    def _alike(self, flight: Flown, variable: str) -> Spell | None:
+        """What another flight had of a request: the one of its arguments; where these are drawn, that in its place."""
+        with_arguments, in_place = self.requests[variable]
+        spell = flight.get(with_arguments)
+        if spell is None and not any(
+            one in flight for each in self.requests.values() for one in self._same(each, in_place)
+        ):
+            spell = flight.get(in_place)
+        return spell
+
+    def _same(self, requests: tuple[_Request, _Request], in_place: _Request) -> tuple[_Request, ...]:
+        """A request with its arguments, if it is of the same predicate as another."""
+        return requests[:1] if requests[0][:2] == in_place[:2] else ()
 
     def _is_before(self, other: str, flown: Value, variable: str) -> bool:
         """Whether another end came before that of a token in the flight, while it lasted."""
