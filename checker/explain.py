@@ -8,7 +8,7 @@ from checker.conditions.rendering import condition_data, condition_lines
 from checker.contrast import Contrast
 from checker.contrast_rendering import contrast_lines
 from checker.counterfactual.ranking import Causes
-from checker.counterfactual.rendering import causes_data, claim_text, effort_text
+from checker.counterfactual.rendering import GUESSES, causes_data, claim_text, effort_text
 from checker.excerpts import Excerpts
 from checker.findings import Fault
 from checker.losses import Repairs
@@ -73,7 +73,10 @@ def _cause_lines(story: Story, causes: Causes, excerpts: Excerpts, most: int) ->
     effort = effort_text(causes, "the same mission" if causes.flown in (0, story.number) else "one that fails alike")
     if not causes.ranked:
         return [f"none of the changes tried makes it pass ({effort})"]
-    lines = [f"causes, the likeliest first ({effort}):"]
+    if causes.ranked[0].claim in GUESSES:
+        lines = [f"none of the changes tried makes it pass ({effort}); guesses, the likeliest first:"]
+    else:
+        lines = [f"causes, the likeliest first ({effort}):"]
     for place, cause in enumerate(causes.ranked[:most], 1):
         lines += [f"{place:>4}  {claim_text(cause)}", *excerpt_lines(cause.place, excerpts, marked=place == 1)]
     if len(causes.ranked) > most:

@@ -40,11 +40,13 @@ def _uneven(guard: Guard, rule: RuleCode, graph: Dependence) -> Iterator[str]:
         steps = list(all_instructions(one))  # what a branch declares is its own
         own = {step.label for step in steps if isinstance(step, Child)}
         own |= {step.name for step in steps if isinstance(step, NewVariable)}
+        chosen = {step.name for step in all_instructions(rule.body) if isinstance(step, NewVariable)}
         there = _said([step.span for step in all_instructions(other)], graph)
         known = elsewhere | {name for name, _, same in there for name in (name, same)}
         for name, sign, same in _said([step.span for step in all_instructions(one)], graph):
-            is_moment = sign != "==" and _MOMENT.fullmatch(name) is not None  # a deadline, which one branch may have
-            if not is_moment and not known & {name, same} and name.partition(".")[0] not in own:
+            is_limit = sign != "==" and _MOMENT.fullmatch(name) is not None  # a deadline, which one branch may have
+            is_limit |= sign != "==" and "." in name and name.partition(".")[0] in chosen  # what an object must be like
+            if not is_limit and not known & {name, same} and name.partition(".")[0] not in own:
                 yield name
 
 

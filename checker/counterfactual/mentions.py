@@ -12,6 +12,7 @@ from checker.counterfactual.word_odds import compared
 from checker.mutation.edits import EditKind, EditSite, SmallEdit
 
 _PATH = re.compile(r"[A-Za-z_]\w*(?:\.\w+)*")
+_NUMBERS = ("int ", "float ")
 _DECLARED = re.compile(r"\w+\s+(\w+)\s*(?:=(.*))?;", re.DOTALL)
 _SET = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==")
 _END = re.compile(r"\b(?:start|end)\b")
@@ -78,9 +79,12 @@ class Mentions:
         return (read[edit.old] > 1) - (read[edit.new] > 0)
 
     def unset_local(self, site: EditSite) -> str:
-        """The local variable that a line declares, if other lines of its rule read it and none sets it; else empty."""
+        """The local number that a line declares, if other lines of its rule read it and none sets it; else empty.
+
+        Of a class, an enum or a truth value it is the planner's choice, as far as conditions leave one.
+        """
         declared = _DECLARED.fullmatch(site.text) if site.rule and not site.is_rule else None
-        if declared is None or declared.group(2) is not None:
+        if declared is None or declared.group(2) is not None or not site.text.startswith(_NUMBERS):
             return ""
         scope, name = _scope(site), declared.group(1)
         is_set = self._set[scope][name] or self._called[scope][name]

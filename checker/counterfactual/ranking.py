@@ -1,9 +1,9 @@
 """Trials in, causes out as plain data, ranked: what a story, a report and the yardstick of mutants show.
 
 First come small changes that mend every failed mission that they were tried on, without a goal lost. Where there are
-none, a line may be missing: variables that too few lines speak of come before what only takes a demand away, unless
-that is usual or far off. A constant that is read and has no value is second at least. Where a branch lacks what the
-other sets, that mends which leads around it shows no more.
+none, a line may be missing: what one branch of a condition sets alone, or a constant that nothing reads, comes before
+what only takes a demand away or mends some, variables that too few lines speak of after it. A constant that is read and
+has no value is second at least. Where a branch lacks what the other sets, that mends which leads around it shows no more.
 """
 
 from dataclasses import dataclass
@@ -96,12 +96,15 @@ def rank(trials: Trials, root: Path) -> Causes:
         if likeliest.setdefault(each.candidate.site, each).variable == each.variable:
             likeliest[each.candidate.site] = each
     loose = list(likeliest.values())[:_MOST_LOOSE]
-    tried = [_tried(one, root) for one in large]
-    likely = [] if small else [_loose(one, root) for one in loose if one.doubt <= _LEAST_DOUBT]
+    tried = [_tried(one, root) for one in large if _claim(one) is not Claim.EVADES]
+    evading = [_tried(one, root) for one in large if _claim(one) is Claim.EVADES]
+    likely = [] if small else [one for one in loose if one.doubt <= _LEAST_DOUBT]
+    telling = [_loose(one, root) for one in likely if _is_telling(one)]
+    faint = [_loose(one, root) for one in likely if not _is_telling(one)]
     missing = [_loose(one, root) for one in loose if not small or _is_telling(one)]
     unset = [_loose(one, root) for one in loose if one.is_unset and one.doubt <= _LEAST_DOUBT]
     mended = [_tried(one, root) for one in small]
-    causes = [*mended[:1], *unset, *mended[1:], *likely, *tried, *missing]
+    causes = [*mended[:1], *unset, *mended[1:], *telling, *tried, *faint, *evading, *missing]
     lines: dict[tuple[str, int], RankedLine] = {}
     for cause in causes:
         lines.setdefault((cause.place.file, cause.place.line), cause)

@@ -7,6 +7,7 @@ from checker.counterfactual.trials import TrialsEnd
 from checker.mutation.edits import EditKind, SmallEdit
 
 _MOST_TEXT = 60
+GUESSES = (Claim.LOOSE_END, Claim.UNEVEN, Claim.UNREAD, Claim.UNSET)  # that no flight speaks for
 
 
 def claim_text(cause: RankedLine) -> str:
@@ -50,6 +51,8 @@ def cause_text(causes: Causes) -> str:
         return f"not known ({effort_text(causes)})"
     if causes.first is None:
         return f"none of the changes tried makes it pass ({effort_text(causes)})"
+    if causes.first.claim in GUESSES:
+        return f"none of the changes tried makes it pass ({effort_text(causes)}); {claim_text(causes.first)}"
     return f"{claim_text(causes.first)} ({effort_text(causes)})"
 
 

@@ -342,8 +342,8 @@ def _domain(name: str, value: object, kind: _Kind | None) -> DomainConstant:
     if isinstance(value, str):
         return make_domain(*_typed(name, value, kind, _NAMED), None, (value,))
     number = _number(name, value)
-    kinds = ("int", "float") if isinstance(value, int) else ("float", "int") if number == int(number) else ("float",)
-    found = _typed(name, value, kind, kinds)
+    of_real = ("float", "int") if number == int(number) else ("float",)
+    found = _typed(name, value, kind, ("int", "float") if isinstance(value, int) else of_real)
     exact: int | float = int(number) if found[0] != "float" else number
     return make_domain(*found, (exact, exact), None)
 

@@ -19,6 +19,7 @@ pytestmark = pytest.mark.once
 
 MODEL = """#include "TREX.nddl"
 enum Load { light, heavy }
+class Rope { float length; float strength; }
 class Crane extends AgentTimeline {
   predicate Idle { }
   predicate Lift { Load load; }
@@ -146,6 +147,22 @@ def test_what_both_branches_hold_to_one_time_is_said_in_both(tmp_path: Path) -> 
 
 def test_a_variable_that_a_branch_declares_is_its_own(tmp_path: Path) -> None:
     assert uneven(tmp_path, "float rest; rest == 3.0; duration == ceil(rest);", "duration == 4;") == []
+
+
+@pytest.mark.parametrize(("sign", "told"), [(">=", []), ("==", ["rope.length"])])
+def test_what_a_chosen_object_must_be_like_is_no_value_that_the_other_branch_lacks(
+    tmp_path: Path, sign: str, told: list[str]
+) -> None:
+    rule = f"""  Rope rope;
+  rope.strength >= 2.0;
+  if (load == Load.heavy) {{
+    duration == 40;
+    rope.length {sign} 9.0;
+  }} else {{
+    duration == 20;
+  }}
+"""
+    assert uneven_in(tmp_path, rule) == told
 
 
 def uneven(folder: Path, line: str, other: str) -> list[str]:

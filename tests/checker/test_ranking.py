@@ -15,14 +15,17 @@ def candidate(line: int, text: str) -> Candidate:
     return Candidate(EditSite("/m.nddl", line, 1, line, "T.P", (1, 9), text, (edit,)), 0.25, Suspicion.CONFLICT)
 
 
-@pytest.mark.parametrize(("doubt", "first"), [(1.0, Claim.LOOSE_END), (6.0, Claim.PARTLY)])
-def test_a_doubtful_loose_end_comes_after_what_was_flown(doubt: float, first: Claim) -> None:
+@pytest.mark.parametrize(
+    ("doubt", "is_uneven", "first"),
+    [(1.0, False, Claim.PARTLY), (1.0, True, Claim.UNEVEN), (6.0, True, Claim.PARTLY)],
+)
+def test_a_doubtful_loose_end_comes_after_what_was_flown(doubt: float, is_uneven: bool, first: Claim) -> None:
     tried = candidate(3, "n <= 6;")
     trial = LineTrial(tried, tried.site.edits[0], 0.0, 1.0, helped=1, missions=2)
-    loose = Loose(candidate(5, "contains(T.Q q);"), "q.n", doubt=doubt)
+    loose = Loose(candidate(5, "contains(T.Q q);"), "q.n", is_uneven=is_uneven, doubt=doubt)
     causes = rank(Trials((trial,), (tried,), 1, 4, TrialsEnd.COMPLETE, (loose,)), Path("/"))
     assert next(one.claim for one in causes.ranked) is first
-    assert {one.claim for one in causes.ranked} == {Claim.PARTLY, Claim.LOOSE_END}
+    assert {one.claim for one in causes.ranked} == {Claim.PARTLY, Claim.UNEVEN if is_uneven else Claim.LOOSE_END}
 
 
 def test_of_the_loose_ends_at_one_line_the_likeliest_is_told() -> None:

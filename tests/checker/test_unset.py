@@ -49,6 +49,24 @@ def test_a_local_variable_that_lines_read_and_none_sets_is_named(tmp_path: Path)
     assert [(one.candidate.site.first, one.variable) for one in found if one.is_unset] == [(3, "lost")]
 
 
+CHOSEN = """class Gate { int side; float width; Gate(int s, float w) { side = s; width = w; } }
+class Duty extends Timeline { predicate Water { int side; } }
+Duty::Water {
+    Gate gate;
+    bool quick;
+    gate.side == side;
+    if (quick) { gate.width >= 1.5; }
+    duration == 5;
+}
+"""
+
+
+def test_an_object_that_a_planner_chooses_is_not_missed(tmp_path: Path) -> None:
+    (tmp_path / "m.nddl").write_text(CHOSEN, encoding="utf-8")
+    sites = sites_of(load_graph(tmp_path / "m.nddl", ()))
+    assert not [one.variable for one in loose_ends(Dependence((), sites), (), usage_of(sites)) if one.is_unset]
+
+
 STEPS = """class Motion extends Timeline { predicate Step { float x; float x1; float y1; } }
 Motion::Step {
     float px;
