@@ -3,7 +3,7 @@
 First come small changes that mend every failed mission that they were tried on, without a goal lost. Where there are
 none, a line may be missing: what one branch of a condition sets alone, or a constant that nothing reads, comes before
 what only takes a demand away or mends some, variables that too few lines speak of after it. A constant that is read and
-has no value is second at least. Where a branch lacks what the other sets, that mends which leads around it shows no more.
+has no value is second at least. Where a branch lacks what the other sets, what leads around it shows no more.
 """
 
 from dataclasses import dataclass
