@@ -7,14 +7,14 @@ from math import inf
 
 import z3
 
-from checker.judge.values import ends_of
+from checker.judge.values import ends_of, may_be_equal
 from checker.proofs.claims import Number
 from checker.proofs.demands import Demand, RunReader, equal, gap
 from checker.proofs.operands import ProgramNames, Symbols, names_of, token_number
 from compiler.program import END, FIRST_PARAMETER, START, NewGlobal, Program
 from nddl_lang.text.source import Span
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ReactorConfiguration
-from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, TokenRecord, Value
+from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, TokenRecord, Value, ValueRange
 
 _MOST_MERGES = 16
 
@@ -261,7 +261,7 @@ class _ReactorReader:
                     )
 
     def ask(self, goals: Sequence[GoalConfiguration]) -> None:
-        """Tokens that the mission file asks for start no earlier than it says."""
+        """Tokens that the mission file asks for start no earlier than it says; goals of other arguments are others'."""
         for token in self.flown.values():
             if token.origin == "rule" or str(token.object) not in self.configuration.internal:
                 continue
@@ -270,12 +270,21 @@ class _ReactorReader:
                 if goal.timeline != str(token.object) or goal.predicate != own or goal.start is None:
                     continue
                 lower, upper = goal.start
-                if isinstance(token.start, int) and lower <= token.start <= upper:
+                if isinstance(token.start, int) and lower <= token.start <= upper and self._is_of(token, goal):
                     start = self.number(token.key, START)
                     self.found.demands.append(gap(z3.IntVal(0), start, lower, min(upper, self.final_tick), None))
                     self._arguments(token, goal)
                     known = self.found.earliest.get(self.symbols.name_of(start), -1)
                     self.found.earliest[self.symbols.name_of(start)] = max(known, int(lower))
+
+    def _is_of(self, token: TokenRecord, goal: GoalConfiguration) -> bool:
+        """Whether a token has the arguments that a goal asks for."""
+        names = [parameter.name for parameter in self.names.predicates[token.predicate].parameters]
+        return all(
+            may_be_equal(token.arguments[names.index(name)], ValueRange(*value) if isinstance(value, tuple) else value)
+            for name, value in goal.parameters
+            if name in names and names.index(name) < len(token.arguments)
+        )
 
     def _arguments(self, token: TokenRecord, goal: GoalConfiguration) -> None:
         """What the mission file says of a goal's arguments."""

@@ -10,9 +10,10 @@ import pytest
 from checker.judge.draws import Chance
 from checker.proofs.judgement import ProvedJudgement, prove_record
 from nddlc.main import run
+from runtime.executive.configuration import GoalConfiguration
 from tests.checker.judge.corruption import ALTERATIONS, again
 from tests.checker.judge.missions import GPS, MISSIONS
-from tests.executive.flying import Flown
+from tests.executive.flying import Flown, flown, planner
 
 pytestmark = pytest.mark.once
 
@@ -105,3 +106,26 @@ def test_z3_proves_a_right_plan(tmp_path: Path, capsys: pytest.CaptureFixture[st
 def test_z3_judges_a_mission_file(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["validate", str(GPS), "--seed", "4", "--smt"]) == 0
     assert "demands of the model hold, 0 broken, 0 undecided" in capsys.readouterr().out
+
+
+def test_a_goal_in_the_window_of_another_has_its_own_arguments() -> None:
+    """A token that starts where two goals may was told to have the arguments of both."""
+    model = """
+    class Job extends AgentTimeline {
+        predicate Rest { }
+        predicate Make { int n; float w; }
+        Job(Mode m) { super(m, "Rest"); }
+    }
+    Job::Make { duration == 5; }
+    Job job = new Job(Internal);
+    close();
+    """
+    goals = tuple(
+        GoalConfiguration(
+            "job", "Make", start=(2, 30), mandatory=True, parameters=(("n", n), ("w", (0.5 * n, 2.0 * n)))
+        )
+        for n in (1, 4)
+    )
+    mission = flown(planner("maker", model, "job"), until=40, goals=goals)
+    found = proved(mission)
+    assert found.holds > 10 and not found.broken and not found.undecided
