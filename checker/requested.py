@@ -4,13 +4,13 @@ A static slice, against the way of the value: from the argument of a child throu
 parameters of its own token, and on through the rules that ask for that token, in whatever reactor.
 """
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from checker.influence import InfluenceLine, line_of
+from checker.influence import Branch, InfluenceLine, branch_of, line_of
 from checker.names import relative_name
-from compiler.instructions import all_instructions
+from compiler.instructions import all_instructions, branched_instructions
 from compiler.program import (
     FIRST_PARAMETER,
     TOKEN_TIMES,
@@ -18,6 +18,7 @@ from compiler.program import (
     Child,
     Constant,
     GlobalVariable,
+    Guard,
     LocalVariable,
     NewGlobal,
     NewToken,
@@ -45,12 +46,16 @@ class PlannerChoice:
 
 
 def lines_that_ask(
-    element: ConflictElement, programs: Mapping[str, Program], root: Path, held: Collection[str]
+    element: ConflictElement,
+    programs: Mapping[str, Program],
+    root: Path,
+    held: Collection[str],
+    taken: Container[Branch] | None = None,
 ) -> tuple[InfluenceLine, ...]:
     """The lines by which an argument came to be asked for, the outermost first; none for a time.
 
-    `programs` are those of the reactors by name, `held` the predicates, without their classes, of what has happened:
-    others have asked for nothing.
+    `programs` are those of the reactors by name, `held` the predicates, without their classes, of what has happened,
+    `taken` the branches that were taken, if that is known: others have asked for nothing.
     """
     variable = _asked_variable(element)
     if variable is None or variable.token is None:
@@ -69,7 +74,7 @@ def lines_that_ask(
             for rule in program.rules if wanted != first or reactor != variable.reactor else ():
                 if rule.predicate.rpartition(".")[2] in held:
                     value = _value(element) if wanted == first else None
-                    lines, behind = _asking(program, rule, wanted, numbers[reactor], value)
+                    lines, behind = _asking(program, rule, wanted, numbers[reactor], value, taken)
                     found |= dict.fromkeys(lines)
                     waiting += [(rule.predicate, one) for one in behind]
     return tuple(
@@ -125,10 +130,11 @@ def _asking(
     wanted: tuple[str, str],
     numbers: Mapping[Operand, float],
     value: float | None,
+    taken: Container[Branch] | None,
 ) -> tuple[list[InfluenceLine], list[str]]:
     """The lines of a rule that say what a parameter of a child is, and the own parameters that this comes from."""
     predicate, name = wanted
-    body = list(all_instructions(rule.body))
+    body = [step for step, within in branched_instructions(rule.body) if taken is None or _is_taken(within, taken)]
     at = _position(program, predicate, name)
     children = {step.slot for step in body if isinstance(step, Child) and step.predicate == predicate}
     reached: set[Operand] = {TokenVariable(slot, at) for slot in children} if at >= 0 else set()
@@ -150,6 +156,11 @@ def _asking(
     behind = [names[one - FIRST_PARAMETER] for one in sorted(own) if 0 <= one - FIRST_PARAMETER < len(names)]
     lines = [InfluenceLine(rule.predicate, rule.predicate.rpartition(".")[2], line_of(post.span)) for post in posts]
     return lines, behind
+
+
+def _is_taken(within: Iterable[tuple[Guard, bool]], taken: Container[Branch]) -> bool:
+    """Whether a mission took all branches in which a line stands."""
+    return all(branch_of(guard.span, "else" if is_else else "then") in taken for guard, is_else in within)
 
 
 def _sets(post: Post, reached: Collection[Operand], numbers: Mapping[Operand, float], value: float | None) -> bool:

@@ -147,8 +147,8 @@ def tell(
     way = sorted([*way, *promised_events(result, outcome, agent)], key=lambda event: event.tick)
     steps = [
         *draws,
-        *_events(way, broken, outcome, text),
-        *_with_askers(_conflict(conflict, confirmation), outcome, text),
+        *_events(way, broken, outcome, text, taken),
+        *_with_askers(_conflict(conflict, confirmation), outcome, text, taken),
         *_tried(failed),
         *(Step(StepKind.WAITING, None, one) for one in waited_for(outcome, agent)),
         Step(StepKind.ABORT, outcome.last_tick, abort),
@@ -261,7 +261,13 @@ def _sampled_at(conflicts: Sequence[Conflict], name: str) -> SourcePlace | None:
     return None
 
 
-def _events(way: Sequence[Event], broken: Event | None, outcome: Outcome, text: ModelText | None) -> Iterator[Step]:
+def _events(
+    way: Sequence[Event],
+    broken: Event | None,
+    outcome: Outcome,
+    text: ModelText | None,
+    taken: Container[Branch] | None,
+) -> Iterator[Step]:
     """The events on the way, and where a plan broke first, with what broke it."""
     told = [Step(StepKind.EVENT, event.tick, event) for event in way if event is not broken]
     if broken is None:
@@ -270,7 +276,7 @@ def _events(way: Sequence[Event], broken: Event | None, outcome: Outcome, text: 
     yield from (step for step in told if step.tick is not None and step.tick <= broken.tick)
     yield Step(StepKind.EVENT, broken.tick, broken)
     confirmation = confirm(broken.conflict, text) if broken.conflict is not None else None
-    yield from _with_askers(_conflict(broken.conflict, confirmation, StepKind.BROKEN), outcome, text)
+    yield from _with_askers(_conflict(broken.conflict, confirmation, StepKind.BROKEN), outcome, text, taken)
     yield from (step for step in told if step.tick is not None and step.tick > broken.tick)
 
 
@@ -298,16 +304,19 @@ def _conflict(
     return steps
 
 
-def _with_askers(steps: list[Step], outcome: Outcome, text: ModelText | None) -> Iterator[Step]:
+def _with_askers(
+    steps: list[Step], outcome: Outcome, text: ModelText | None, taken: Container[Branch] | None
+) -> Iterator[Step]:
     """The steps, with the lines by which an argument came to be asked for before the step that says so."""
     held = {predicate for *_, predicate in heads_of(outcome.events)}
     events = single_events(outcome.events)
     held |= {event.predicate for event in events if event.kind is EventKind.REQUEST}
     for step in steps:
         if isinstance(step.subject, ConflictElement) and text is not None:
-            lines = lines_that_ask(step.subject, text.programs, text.root, held)
-            yield from (Step(StepKind.ASKED, None, line, line.place) for line in lines)
-            if not lines and (chosen := who_chose(step.subject, text.programs, events, text.root)) is not None:
+            asking = (step.subject, text.programs, text.root, held)
+            yield from (Step(StepKind.ASKED, None, line, line.place) for line in lines_that_ask(*asking, taken))
+            chosen = who_chose(step.subject, text.programs, events, text.root)
+            if chosen is not None and not lines_that_ask(*asking):
                 yield Step(StepKind.CHOSEN, None, chosen, chosen.place)
         yield step
 

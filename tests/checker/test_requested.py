@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from checker.causes import failed_by
+from checker.coverage import branches_taken
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.variant import load_over, open_over
@@ -22,12 +23,20 @@ TEMPLATE = ROOT / "models" / "templates" / "survey"
 pytestmark = pytest.mark.once
 
 
-def test_the_line_of_the_planner_is_told_that_asked_a_simulator_for_too_much() -> None:
+BRANCHES = """if (length >= 0.0) {
+        drive.distance == length + length;
+    } else {
+        drive.distance == length;
+    }"""
+
+
+@pytest.mark.parametrize("asking", ["drive.distance == length + length;", BRANCHES])
+def test_the_line_of_the_planner_is_told_that_asked_a_simulator_for_too_much(asking: str) -> None:
     mission, found = read_mission(TEMPLATE / "mission.toml")
     assert mission is not None, found
     path = real_path(TEMPLATE / "planner.nddl")
     text = path.read_text()
-    overlay = ((str(path), text.replace("drive.distance == length;", "drive.distance == length + length;")),)
+    overlay = ((str(path), text.replace("drive.distance == length;", asking)),)
     models = load_models(mission, open_over(overlay))
     with open_flyer(mission, models) as flyer:
         result = flyer.fly(models.agent, 1, mission_seed(mission.check.seed, 1), partial(load_over, overlay))
@@ -38,7 +47,10 @@ def test_the_line_of_the_planner_is_told_that_asked_a_simulator_for_too_much() -
     (element,) = [one for one, term in terms if term.name == "bounds" and one.variables[0].name == "distance"]
     assert element.kind is ElementKind.REQUEST
     programs = text_of(models.agent, models.programs).programs
-    lines = lines_that_ask(element, programs, Path(models.agent.root), {"Leg", "Drive", "Scan"})
-    line = text[: text.index("drive.distance")].count("\n") + 1
+    assert result.outcome is not None
+    in_order = [models.programs[each.model] for each in models.agent.reactors]
+    taken = branches_taken(in_order, result.outcome.behaviour)
+    lines = lines_that_ask(element, programs, Path(models.agent.root), {"Leg", "Drive", "Scan"}, taken)
+    line = text[: text.index("drive.distance")].count("\n") + 1 + (asking is BRANCHES)
     assert [(one.rule, one.place.file, one.place.line) for one in lines] == [("Survey.Leg", "planner.nddl", line)]
     assert lines_that_ask(element, programs, Path(models.agent.root), ()) == ()
