@@ -28,7 +28,7 @@ class _Deferred(ModuleType):
         return ModuleType.__getattribute__(self, name)
 
     def _load(self) -> None:
-        """Run the code; a signal that comes meanwhile is heeded afterwards, for z3's own code would swallow it."""
+        """Run the code; a signal that comes meanwhile is heeded afterwards: half a module is of no use."""
         assert self.__spec__ is not None
         assert self.__spec__.loader is not None
         self.__dict__[_BEGUN] = True
