@@ -37,7 +37,8 @@ def fly_programs(
     tells_on: bool = True,
     clock: FastClock | None = None,
 ) -> Outcome:
-    """Fly one mission; `values` replaces draws of the named parameters, `until` ends it before its final tick.
+    """Fly one mission; `values` replaces draws of the named parameters, `until` ends it before its final tick, as does
+    the agent's own.
 
     It raises `DisagreementError` where the judge holds that the executive broke the model. Without `tells_on`
     conflicts end at what was observed: enough for who asks for the verdict alone.
@@ -57,6 +58,7 @@ def fly_recorded(
 ) -> tuple[Outcome, MissionRecord]:
     """The same, with the record of what was executed."""
     root = Path(agent.root)
+    until = agent.until if until is None else until
     with seldom_collected(), redirect_stdout(sys.stderr):  # what constraints print would end up in reports
         outcome, record = record_mission(agent, programs, seed, values, until=until, tells_on=tells_on, clock=clock)
         record = few_listed(record)

@@ -13,7 +13,7 @@ from typing import Any
 from checker.conditions.space import fixed
 from checker.judge.trace_reading import read_events
 from checker.mission import Mission
-from runtime.executive.configuration import CodeConfiguration, ReactorConfiguration
+from runtime.executive.configuration import CodeConfiguration, PropertyKind, ReactorConfiguration
 from runtime.executive.outcome import Event, EventKind
 from runtime.executive.rendering import event_data
 from runtime.user.transaction_log import SUFFIX, TransactionLog, read_transaction_log
@@ -53,6 +53,10 @@ class MissionLog:
         return tuple(dict.fromkeys(seen))
 
 
+_LAST = ("abort", "end")  # kinds of events after which there is nothing
+_TO_COME = (PropertyKind.REACHED, PropertyKind.WITHIN, PropertyKind.UNTIL)
+
+
 def is_log(path: Path) -> bool:
     """Whether a path is that of a log of T-REX, or of a directory with such logs."""
     return path.name.endswith(SUFFIX) if not path.is_dir() else any(path.glob(f"*{SUFFIX}"))
@@ -63,7 +67,9 @@ def read_mission_log(path: Path) -> MissionLog:
     if not is_log(path):
         events = read_events(path.read_text(encoding="utf-8"))
         seed, values = _flight_of(events)
-        return MissionLog(_in_trace(path, events), tuple(events), _last(events), 0.0, None, (), seed, values)
+        last = _last(events)
+        ends = last if events and events[-1].get("kind") in _LAST else None
+        return MissionLog(_in_trace(path, events), tuple(events), last, 0.0, ends, (), seed, values)
     files = sorted(path.glob(f"*{SUFFIX}")) if path.is_dir() else [path]
     logs = [(file, _log(file)) for file in files]
     events = sorted((event for _, log in logs for event in log.events), key=lambda event: int(event["tick"]))
@@ -106,7 +112,8 @@ def _last(events: Iterable[Mapping[str, Any]]) -> int:
 def with_players(mission: Mission, log: MissionLog) -> tuple[Mission, dict[str, ReactorLog]]:
     """The mission with players for the reactors that ask nobody and have a log, and the logs of the others by name.
 
-    Parameters to which the log's flight gave values have these.
+    Parameters to which the log's flight gave values have these. Where the log ends before the mission does, as it was
+    aborted, flights end there, too: what held then would go on for ever. What a property asks to come is not judged.
     """
     agent = mission.agent
     played: dict[str, CodeConfiguration] = {}
@@ -120,8 +127,10 @@ def with_players(mission: Mission, log: MissionLog) -> tuple[Mission, dict[str, 
             others[each.name] = own
     reactors = tuple(each for each in agent.reactors if each.name not in played)
     coded = (*(each for each in agent.coded if each.name not in played), *played.values())
-    final = agent.final_tick if log.ends is None else min(agent.final_tick, log.ends)
-    changed = fixed(replace(agent, reactors=reactors, coded=coded, final_tick=final), dict(log.values))
+    changed = fixed(replace(agent, reactors=reactors, coded=coded), dict(log.values))
+    if log.ends is not None and log.ends < agent.final_tick:
+        kept = tuple(one for one in agent.properties if one.kind not in _TO_COME)
+        changed = replace(changed, until=log.ends, properties=kept)
     return replace(mission, agent=changed, check=replace(mission.check, missions=1)), others
 
 

@@ -115,16 +115,29 @@ def _replayed(path: Path, mission_path: Path, bounds: Bounds, is_trusted: bool) 
     result = campaign.judged(fly_one(campaign.load(campaign.models.agent), task, keep_trace=True))
     findings = campaign.assess((result,), focus=1, bounds=bounds if bounds.flights else None)
     fault = next(iter(findings.faults), None)
-    return _Found(campaign, path.name, result, fault, True, (result,), _told_of_log(log, players, others, result))
+    return _Found(
+        campaign,
+        path.name,
+        result,
+        fault,
+        True,
+        (result,),
+        _told_of_log(log, players, others, result, changed.agent.until),
+    )
 
 
 def _told_of_log(
-    log: MissionLog, players: list[str], others: dict[str, ReactorLog], result: MissionResult
+    log: MissionLog, players: list[str], others: dict[str, ReactorLog], result: MissionResult, until: int | None
 ) -> tuple[str, ...]:
     """What the log says of the end of the mission, and where the flight is another."""
     told = [f"played from the log: {', '.join(players)}"]
     told += [f"`{name}` breaks off at tick {log.last_tick}" for name in log.cut_off]
-    told += [f"nothing is on record after tick {log.last_tick}: what held then goes on"] if log.ends is None else []
+    if log.ends is None:
+        told.append(f"nothing is on record after tick {log.last_tick}: what held then goes on")
+    elif until is not None:
+        told.append(
+            f"the record ends at tick {until}: what makes the mission pass here takes it past that, no more is known"
+        )
     told += [f"T-REX ended `{one.reactor}` at tick {one.failed}" for one in log.reactors if one.failed is not None]
     lines = [line for one in others.values() for line in one.provided]
     events = result.outcome.events if result.outcome is not None else ()

@@ -13,13 +13,14 @@ _LONG = 10  # ticks that are no moment
 _STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
 
 
-def damage_of(result: MissionResult) -> float:
+def damage_of(result: MissionResult, is_cut: bool = False) -> float:
     """What a mission that passed has lost all the same: goals weigh most, then requests, then repairs.
 
-    The more was lost, the less one more of it tells: many are usual in some models.
+    The more was lost, the less one more of it tells: many are usual in some models. Where a flight `is_cut` off before
+    the mission ends, open goals may be achieved yet.
     """
     losses = result.losses
-    goals = len(losses.goals) - losses.count(GoalFate.ACHIEVED)
+    goals = len(losses.goals) - losses.count(GoalFate.ACHIEVED) - is_cut * losses.count(GoalFate.OPEN)
     return HEAVY * goals + math.log2(1.0 + losses.lost + losses.dropped + 0.5 * losses.repaired)
 
 

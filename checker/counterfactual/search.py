@@ -74,7 +74,8 @@ class CauseSearch:
         if cause.change is None or cause.claim is Claim.EVADES or left <= 0.0 or self._bounds.flights == 0:
             return False
         result = _fly(self._world, cause.change, failed, left)
-        return result.verdict is Verdict.PASS and damage_of(result) + voided_of(result, failed) < HEAVY
+        is_cut = self._world.agent.until is not None
+        return result.verdict is Verdict.PASS and damage_of(result, is_cut) + voided_of(result, failed) < HEAVY
 
 
 def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]:
@@ -91,6 +92,7 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     """Try small changes on the first of the failed missions, see `try_out`."""
     outcome = missions.failed[0].outcome
     assert outcome is not None
+    missions = replace(missions, is_cut=world.agent.until is not None)
     sampled = {parameter.name for parameter in world.agent.parameters}
     sites = [site for site in sites_in(world.agent, world.overlay) if site.named not in sampled]
     graph = Dependence(world.programs, sites)

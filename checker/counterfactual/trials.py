@@ -142,6 +142,7 @@ class Missions:
     exercised: frozenset[int] = frozenset()
     usual: frozenset[int] = frozenset()
     passing: float = 0.0
+    is_cut: bool = False  # before they end, as nothing is known of what came then
 
     def is_patched(self, result: MissionResult) -> bool:
         """Whether a mission that passes needed repairs, where those that passed before needed none."""
@@ -321,8 +322,7 @@ class _Trials:
 
     def fly(self, edit: SmallEdit, mission: MissionResult) -> MissionResult:
         """One trial."""
-        self.flights += 1
-        begun = self._watch.seconds
+        self.flights, begun = self.flights + 1, self._watch.seconds
         most = max(_SHARE * (self.bounds.seconds - begun), _LEAST_SECONDS)
         if self._slowest is not None:
             most = min(most, max(_SLOW * self._slowest, _LEAST_SECONDS))
@@ -340,7 +340,7 @@ class _Trials:
     def read(self, candidate: Candidate, edit: SmallEdit, cost: float, result: MissionResult) -> LineTrial:
         """What a flight of the first failed mission tells that passes with an edit."""
         lost = sum(of(result, self.missions.failed[0]) for of in (strayed_of, collapsed_of, voided_of))
-        damage = lost + damage_of(result) + _PATCHED * self.missions.is_patched(result)
+        damage = lost + damage_of(result, self.missions.is_cut) + _PATCHED * self.missions.is_patched(result)
         return LineTrial(candidate, edit, damage, cost, is_evasive=self.missions.is_evasive(result))
 
     def confirmed(self, trial: LineTrial, helping: Sequence[LineTrial], usage: Usage) -> LineTrial:
@@ -389,7 +389,8 @@ class _Trials:
                 missions += 1
                 if result.verdict is Verdict.PASS:
                     helped += 1
-                    damage = max(damage, damage_of(result) + strayed_of(result, mission) + voided_of(result, mission))
+                    less = strayed_of(result, mission) + voided_of(result, mission)
+                    damage = max(damage, damage_of(result, self.missions.is_cut) + less)
                 else:
                     against = against or mission
         return replace(trial, damage=damage, helped=helped, missions=missions), against

@@ -183,3 +183,4 @@ class AgentConfiguration:
     properties: tuple[PropertyConfiguration, ...] = ()
     order: tuple[str, ...] = ()
     clock: ClockConfiguration = ClockConfiguration()
+    until: int | None = None  # where flights are cut off, as what came after is not known; None: at the final tick

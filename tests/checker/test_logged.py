@@ -134,6 +134,19 @@ def test_a_trace_is_explained_as_a_log_is(tmp_path: Path) -> None:
         explained(tmp_path / "none.jsonl")
 
 
+def test_a_limit_that_a_record_has_reached_is_a_cause(tmp_path: Path) -> None:
+    """Nothing is on record after the abort, so that with any limit what held then would last too long in the end."""
+    outcome = flown(Verdict.FAIL)
+    assert outcome.abort is not None and outcome.abort.code == "F1"
+    trace = tmp_path / "flight.jsonl"
+    trace.write_text("\n".join(trace_json(event) for event in outcome.events) + "\n")
+    data = json.loads(explained(trace, "--flights", "12", "--format", "json"))
+    assert any(f"the record ends at tick {outcome.last_tick}" in line for line in data["log"])
+    first = data["causes"]["ranked"][0]
+    assert (first["claim"], "SURFACE_MAX" in first["text"]) == ("mends", True)
+    assert data["last_tick"] == outcome.last_tick
+
+
 def test_timelines_that_nobody_owns_are_counted(tmp_path: Path) -> None:
     ping = '<tick value="3"><Observation on="sonar" pred="Ping"/></tick>'
     text = f'<Log><header><provide name="sonar"/></header>{ping}</Log>'
