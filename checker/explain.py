@@ -89,6 +89,10 @@ def _step_lines(index: int, step: Step, story: Story, excerpts: Excerpts, causes
     lines = [f"{index:>4}  {when}{step_text(step, story)}{step_label(step, causes)}"]
     if step.place is not None:
         lines += excerpt_lines(step.place, excerpts, marked=step.kind in (StepKind.FAULT, StepKind.BROKEN))
+    if step.made is not None:
+        cause = cause_number(step.made, causes)
+        mark = f" (cause {cause})" if cause else ""
+        lines += [f"      where the object is made{mark}:", *excerpt_lines(step.made, excerpts)]
     for one in step.under:
         cause = cause_number(one.place, causes)
         lines += [
@@ -187,6 +191,7 @@ def _step_data(step: Step, story: Story, excerpts: Excerpts) -> dict[str, Any]:
         "reason": step_text(step, story),
         "place": place_data(step.place, excerpts),
         "limits": [place_data(limit, excerpts) for limit in step.limits],
+        "made": place_data(step.made, excerpts),
         "under": [{"place": place_data(one.place, excerpts), "else": one.is_else} for one in step.under],
     }
 

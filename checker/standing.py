@@ -1,6 +1,7 @@
-"""A line of a model in, the conditions out under which it stands.
+"""A line of a model in, the conditions out under which it stands, and where the object is made that it is about.
 
-A conflict names lines of the branches that were taken; that these were taken is often what is wrong.
+A conflict names lines of the branches that were taken, and of constructors; that these were taken, or called with such
+numbers, is often what is wrong.
 """
 
 from collections.abc import Iterator, Mapping
@@ -10,8 +11,8 @@ from pathlib import Path
 from checker.influence import line_of
 from checker.names import relative_name
 from compiler.instructions import branched_instructions
-from compiler.program import Guard, Program
-from runtime.executive.outcome import ConflictElement, SourcePlace
+from compiler.program import Guard, NewObject, Program
+from runtime.executive.outcome import ConflictElement, ElementKind, SourcePlace
 
 _Lines = dict[tuple[str, int, int], "tuple[Standing, ...]"]
 
@@ -42,6 +43,18 @@ class StandingLines:
         place = element.place
         return self._lines[reactor].get((place.file, place.line, place.column), ())
 
+    def made(self, element: ConflictElement) -> SourcePlace | None:
+        """The line that makes the object of which an element says what a member is; None for other elements."""
+        if element.kind is not ElementKind.ASSIGNMENT or len(element.variables) != 1:
+            return None
+        (variable,) = element.variables
+        program = self.programs.get(variable.reactor)
+        name = variable.name.rpartition(".")[0]
+        if variable.token is not None or not name or program is None:
+            return None
+        made = next((one for one in program.script if isinstance(one, NewObject) and one.name == name), None)
+        return None if made is None else self._placed(line_of(made.span))
+
     def _standing(self, program: Program) -> Iterator[tuple[tuple[str, int, int], tuple[Standing, ...]]]:
         for rule in program.rules:
             for instruction, branches in branched_instructions(rule.body):
@@ -50,5 +63,8 @@ class StandingLines:
                     yield (file, span.line, span.column), tuple(self._standing_in(*one) for one in branches)
 
     def _standing_in(self, guard: Guard, is_else: bool) -> Standing:
-        place = line_of(guard.span)
-        return Standing(replace(place, file=relative_name(place.file, self.root)), is_else)
+        return Standing(self._placed(line_of(guard.span)), is_else)
+
+    def _placed(self, place: SourcePlace) -> SourcePlace:
+        """A place as the story names it: relative to the mission's folder."""
+        return replace(place, file=relative_name(place.file, self.root))

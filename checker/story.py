@@ -67,7 +67,8 @@ class Step:
 
     `subject` is a draw with how it is drawn, the rule of a line, an event, an element of the conflict, a line that asks
     for one, what was tried or waited for, or the abort (None: the mission went to its end). `limits` are the lines that
-    set what the faulty one compares with, `under` the conditions under which the line of an element stands.
+    set what the faulty one compares with, `under` the conditions under which the line of an element stands,
+    `made` where the object is made that it speaks of.
     """
 
     kind: StepKind
@@ -87,6 +88,7 @@ class Step:
     place: SourcePlace | None = None
     limits: tuple[SourcePlace, ...] = ()
     under: tuple[Standing, ...] = ()
+    made: SourcePlace | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -322,14 +324,14 @@ def _with_askers(
 
 
 def _with_conditions(steps: list[Step], text: ModelText | None) -> Iterator[Step]:
-    """The steps, those of elements with the conditions under which their lines stand, but for what was told before."""
+    """The steps, those of elements with the conditions of their lines, each told once, and their objects' places."""
     told: set[Standing] = set()
     lines = StandingLines(text.programs, text.root) if text is not None else None
     for step in steps:
         if lines is not None and isinstance(step.subject, ConflictElement):
             under = tuple(one for one in lines.of(step.subject) if one not in told)
             told.update(under)
-            yield replace(step, under=under)
+            yield replace(step, under=under, made=lines.made(step.subject))
         else:
             yield step
 

@@ -178,7 +178,11 @@ def _fault(
 
 def _step(step: Step, story: Story, excerpts: Excerpts) -> str:
     when = f'<span class="soft">tick {step.tick}</span> ' if step.tick is not None else ""
-    places = [place for place in (*(one.place for one in step.under), step.place, *step.limits) if place is not None]
+    places = [
+        place
+        for place in (*(one.place for one in step.under), step.place, step.made, *step.limits)
+        if place is not None
+    ]
     is_fault = step.kind in (StepKind.FAULT, StepKind.BROKEN)
     lines = "\n".join(_excerpt(place, excerpts, marked=is_fault) for place in places)
     source = f"<pre>{lines}</pre>" if lines else ""

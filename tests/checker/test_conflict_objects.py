@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from checker.batch.result import MissionResult
 from checker.batch.worker import fly_one
 from checker.broken_plans import blamed
 from checker.campaign import Campaign
@@ -60,8 +61,8 @@ missions = 1
 """
 
 
-def confirmation(folder: Path, rule: str, side: str = "upper") -> Confirmation:
-    """z3's word on why no plan has such a watering."""
+def failed_with(folder: Path, rule: str, side: str) -> tuple[Campaign, MissionResult]:
+    """A mission that has no plan for its watering."""
     (folder / "warden.nddl").write_text(MODEL.format(rule=rule, side=side))
     (folder / "mission.toml").write_text(MISSION)
     mission, found = read_mission(folder / "mission.toml")
@@ -69,7 +70,12 @@ def confirmation(folder: Path, rule: str, side: str = "upper") -> Confirmation:
     models = load_models(mission)
     assert not models.has_errors, models.diagnostics
     given = Campaign(mission, models, pinned(models))
-    failed = given.judged(fly_one(given.load(models.agent), given.task(1), keep_trace=True))
+    return given, given.judged(fly_one(given.load(models.agent), given.task(1), keep_trace=True))
+
+
+def confirmation(folder: Path, rule: str, side: str = "upper") -> Confirmation:
+    """z3's word on why no plan has such a watering."""
+    given, failed = failed_with(folder, rule, side)
     conflict = blamed(failed).conflict
     assert conflict is not None
     return confirm(conflict, given._text())
@@ -85,6 +91,14 @@ def test_two_members_of_one_name_are_two_numbers(tmp_path: Path) -> None:
 def test_one_member_may_be_equal_to_another(tmp_path: Path) -> None:
     found = confirmation(tmp_path, "gate.side == plot.side; gate.width >= 1.5;", side="lower")
     assert found.finding is Finding.CONFIRMED and len(found.core) >= 6
+
+
+def test_a_number_of_a_constructor_is_told_with_the_line_that_made_the_object(tmp_path: Path) -> None:
+    given, failed = failed_with(tmp_path, "gate.side != plot.side; gate.width >= 1.5;", "upper")
+    steps = given.story(failed, None).steps
+    made = {one.place.text: one.made.text for one in steps if one.place is not None and one.made is not None}
+    assert made.keys() <= {"width = w;", "side = s;"} and made
+    assert all(" = new " in text for text in made.values())
 
 
 @pytest.mark.parametrize("bounds", [(float("inf"), float("inf")), (-float("inf"), -float("inf"))])
