@@ -1,5 +1,7 @@
 """The sentences that every form of the report shares."""
 
+from collections import Counter
+
 from checker.counterfactual.trials import TrialsEnd
 from checker.findings import Ending, Findings, regressed
 from checker.losses import Limit
@@ -180,7 +182,11 @@ def fault_title(findings: Findings, index: int) -> str:
     name = CODE_NAMES.get(bucket.code, "unknown")
     interval = findings.faults[index].interval
     rate = "" if interval is None else f"; rate {_interval_text(interval)}"
-    return f"{bucket.code} {name}: {missions(len(bucket.missions))} ({percent(bucket.share)}), {when}{rate}"
+    alike = set(bucket.missions)
+    codes = Counter(one.judgement.code for one in findings.results if one.number in alike)
+    others = ", ".join(f"{count} of them {code}" for code, count in codes.items() if code != bucket.code)
+    among = f" ({percent(bucket.share)}{f'; {others}' if others else ''})"
+    return f"{bucket.code} {name}: {missions(len(bucket.missions))}{among}, {when}{rate}"
 
 
 def verdict_word(findings: Findings) -> str:

@@ -21,6 +21,7 @@ from checker.report.html import html_report
 from checker.report.junit import junit_report
 from checker.report.markdown import markdown_report
 from checker.report.sarif import sarif_report
+from checker.report.sentences import fault_title
 from checker.report.svg import Axis
 from checker.report.text import text_report
 from checker.story import Step, StepKind
@@ -54,6 +55,14 @@ def test_the_text_names_line_condition_and_command(findings: Findings) -> None:
     assert "--> models/gps/rules.nddl:34" in text
     assert "fails when GPS_HIT_RATE > 3.8" in text
     assert f"nddlc explain {findings.run_id}#16" in text
+
+
+def test_missions_that_one_line_ended_in_another_way_are_counted_so(findings: Findings) -> None:
+    last = findings.faults[0].bucket.missions[-1]
+    missed = Judgement(Verdict.FAIL, "F6")
+    results = [replace(one, judgement=missed) if one.number == last else one for one in findings.results]
+    assert "them" not in fault_title(findings, 0)
+    assert "; 1 of them F6)" in fault_title(replace(findings, results=tuple(results)), 0)
 
 
 def test_z3_is_asked_once_of_the_conflict_that_a_story_tells(campaign: Campaign, findings: Findings) -> None:
