@@ -20,18 +20,28 @@ _EVENTS = 240_000  # of all flights together: a long mission is flown no more of
 class Bounds:
     """How much may be tried; `is_cancelled` is asked before each flight.
 
-    `seconds` are of processor time, as `spent` tells it: of this process, and of those that fly for it.
+    `seconds` are of processor time, as `spent` tells it: of this process, and of those that fly for it. Where `flights`
+    have shown no change that mends, there are `further` ones.
     """
 
     flights: int = MOST_FLIGHTS
     seconds: float = MOST_SECONDS
     is_cancelled: Callable[[], bool] = field(default=lambda: False)
     spent: Callable[[], float] = time.process_time
+    further: int = 0
 
     def grown(self, changes: int, events: int) -> "Bounds":
-        """The bounds for so many changes that may be tried on a mission of so many events: a large model has more."""
-        wanted = min(self.flights * changes // _CHANGES, _MOST_TIMES * self.flights, _EVENTS // max(events, 1))
-        return replace(self, flights=max(self.flights, wanted))
+        """The bounds for so many changes that may be tried on a mission of so many events: a large model has more.
+
+        What a large one has at once any other has as further flights.
+        """
+        most = min(_MOST_TIMES * self.flights, _EVENTS // max(events, 1))
+        flights = max(self.flights, min(self.flights * changes // _CHANGES, most))
+        return replace(self, flights=flights, further=max(most - flights, 0))
+
+    def lengthened(self) -> "Bounds":
+        """The bounds with the further flights."""
+        return replace(self, flights=self.flights + self.further, further=0)
 
 
 class Stopwatch:

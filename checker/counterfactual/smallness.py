@@ -185,6 +185,13 @@ def delay_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     return delay - _TWIN_SOON * usage.twins(edit, site) - _MEASURED_SOON * usage.measure(edit, site)
 
 
+def first_edits(site: EditSite, usage: Usage) -> list[tuple[float, SmallEdit]]:
+    """The edits of a line that are tried whether or not others help, the soonest first."""
+    delays = [(delay_of(edit, site, usage), number, edit) for number, edit in enumerate(site.edits)]
+    wanted = sorted((delay, number, edit) for delay, number, edit in delays if delay is not None)
+    return [(delay, edit) for delay, _, edit in wanted]
+
+
 def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     match edit.kind:
         case EditKind.MISSION:

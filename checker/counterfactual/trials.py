@@ -18,7 +18,7 @@ from checker.counterfactual.effort import Bounds, Stopwatch
 from checker.counterfactual.follow_ups import alternatives, follow_ups
 from checker.counterfactual.numbers import between, is_doubling
 from checker.counterfactual.orders import is_order_turned
-from checker.counterfactual.smallness import cost_of, delay_of, is_loosening, is_probe
+from checker.counterfactual.smallness import cost_of, delay_of, first_edits, is_loosening, is_probe
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import Usage
 from checker.mutation.edits import EditKind, EditSite, SmallEdit
@@ -175,7 +175,7 @@ def try_out(
         earlier: Counter[int] = Counter()
         is_spoken = _is_spoken(candidate)
         far = max(candidate.far - candidate.nearer - _CONSTANT * candidate.site.is_number, 0.0)
-        for delay, edit in _first_edits(candidate.site, usage):
+        for delay, edit in first_edits(candidate.site, usage):
             if is_probe(edit) and is_spoken:
                 delay = min(delay, _PROBE)
             if is_doubling(edit) and _is_culprit(candidate):
@@ -200,9 +200,10 @@ def try_out(
     outside = [one for one in outside if delay_of(one[1], one[0].site, usage) is None][:_MOST_OUTSIDE]
     spoken = sum(candidate.source is Suspicion.CONFLICT for candidate, _ in outside)
     share = _MODELS if outside else 1.0
-    while turns and trials.may_go_on(
-        _reserve(best, others, bounds) + (spoken if _small(best) else len(outside)), share
-    ):
+    while turns:
+        kept = _reserve(best, others, trials.bounds) + (spoken if _small(best) else len(outside))
+        if not trials.may_go_on(kept, share) and (_small(best) or not trials.lengthen()):
+            break
         at, candidate, edit = turns.pop()
         site = candidate.site
         cost = cost_of(edit, site, usage)
@@ -236,7 +237,7 @@ def try_out(
     small = _small(best)
     for candidate, edit in outside:
         is_wanted = candidate.source is Suspicion.CONFLICT or small < (_TOLD if edit.kind is EditKind.GOAL else 1)
-        if is_wanted and trials.may_go_on(_reserve(best, others, bounds)):
+        if is_wanted and trials.may_go_on(_reserve(best, others, trials.bounds)):
             tried.add((candidate.site, edit))
             result = trials.fly(edit, failed[0])
             if result.verdict is Verdict.PASS:
@@ -283,13 +284,6 @@ def _small(best: Mapping[EditSite, LineTrial]) -> int:
     return sum(one.toll < HEAVY and not is_loosening(one.edit, site) for site, one in best.items())
 
 
-def _first_edits(site: EditSite, usage: Usage) -> list[tuple[float, SmallEdit]]:
-    """The edits of a line that are tried whether or not others help, the soonest first."""
-    delays = [(delay_of(edit, site, usage), number, edit) for number, edit in enumerate(site.edits)]
-    wanted = sorted((delay, number, edit) for delay, number, edit in delays if delay is not None)
-    return [(delay, edit) for delay, _, edit in wanted]
-
-
 class _Trials:
     """Flies trials as long as the bounds allow it."""
 
@@ -314,6 +308,13 @@ class _Trials:
             elif self._watch.is_starved(share * self.bounds.seconds):
                 self.ended = self.cut = TrialsEnd.CLOCK
         return self.ended is None
+
+    def lengthen(self) -> bool:
+        """Whether the flights that have ended the trials are not all that there may be: then let the others be made."""
+        if self.ended is not TrialsEnd.FLIGHTS or not self.bounds.further:
+            return False
+        self.bounds, self.ended = self.bounds.lengthened(), None
+        return True
 
     def resume(self) -> None:
         """Let flights that were kept for others be made, in the time that is left."""

@@ -18,13 +18,13 @@ from tests.checker.test_trials import result, sites
 pytestmark = pytest.mark.once
 
 
-def tried(folder: Path, bounds: Bounds) -> Trials:
-    """What trials of one line tell that never help."""
+def tried(folder: Path, bounds: Bounds, *, helps: bool = False) -> Trials:
+    """What trials of one line tell that never help, or all do."""
     found = sites(folder)
     candidates = [Candidate(found["duration <= SPAN;"], 0.0, Suspicion.CONFLICT)]
-    missions = Missions([result(1, Verdict.FAIL)], [])
+    missions, passes = Missions([result(1, Verdict.FAIL)], []), result(1, Verdict.PASS)
     usage = usage_of(list(found.values()))
-    return try_out(candidates, missions, usage, lambda edit, mission, most: mission, bounds)
+    return try_out(candidates, missions, usage, lambda edit, mission, most: passes if helps else mission, bounds)
 
 
 def test_a_busy_machine_ends_no_trials(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -47,3 +47,13 @@ def test_a_machine_without_time_ends_trials_and_this_is_said(tmp_path: Path, mon
     found = tried(tmp_path, Bounds(seconds=30.0, spent=lambda: 0.0))
     assert found.ended is TrialsEnd.CLOCK
     assert effort_text(rank(found, tmp_path)).endswith("then the machine had no time for more")
+
+
+def test_where_nothing_mends_there_are_further_flights(tmp_path: Path) -> None:
+    few, more = (tried(tmp_path, Bounds(2, further=further)) for further in (0, 3))
+    assert (few.flights, few.ended, more.flights, more.ended) == (2, TrialsEnd.FLIGHTS, 5, TrialsEnd.FLIGHTS)
+    assert rank(more, tmp_path).is_all_of(2) and not rank(few, tmp_path).is_all_of(3)
+
+
+def test_where_something_mends_there_are_none(tmp_path: Path) -> None:
+    assert tried(tmp_path, Bounds(2, further=3), helps=True).flights <= 2

@@ -123,6 +123,9 @@ def test_a_large_model_has_more_flights_where_a_mission_is_short() -> None:
     assert Bounds(40).grown(20_000, 1000).flights == 120
     assert Bounds(40).grown(20_000, 30_000).flights == 40
     assert Bounds(0).grown(20_000, 1000).flights == 0
+    assert [Bounds(40).grown(changes, 1000).further for changes in (900, 2500, 20_000)] == [80, 40, 0]
+    assert Bounds(40).grown(900, 1000).lengthened().flights == 120
+    assert Bounds(40).grown(900, 30_000).further == 0
 
 
 def test_a_word_that_left_a_flight_without_an_end_waits_at_other_lines() -> None:
