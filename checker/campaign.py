@@ -18,7 +18,7 @@ from checker.batch.progress import Progress
 from checker.batch.result import MissionResult
 from checker.batch.store import RunStore
 from checker.batch.worker import Load, Task, fly_one
-from checker.broken_plans import usual_breaking
+from checker.broken_plans import broken_plan, usual_breaking
 from checker.buckets import Key, bucket_key
 from checker.conditions.record import Conditions
 from checker.contrast import Contrast, Trace, find_contrast, nearest_passing
@@ -213,7 +213,8 @@ class Campaign:
         trace: Trace | None = None,
     ) -> Contrast | None:
         """What sets a failed mission apart from the nearest one that passes; flown in this process, or by `trace`."""
-        wanted = suspects(failed, fault, usual_breaking(results))
+        broken = broken_plan(failed, usual_breaking(results))
+        wanted = suspects(failed.outcome, fault, broken) if failed.outcome is not None else ()
         agent = with_point(self.models.agent, failed.point)
         return find_contrast(failed, results, agent, trace or self._traced, wanted)
 

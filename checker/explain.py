@@ -8,7 +8,7 @@ from checker.conditions.rendering import condition_data, condition_lines
 from checker.contrast import Contrast
 from checker.contrast_rendering import contrast_lines
 from checker.counterfactual.ranking import Causes
-from checker.counterfactual.rendering import GUESSES, causes_data, claim_text, effort_text
+from checker.counterfactual.rendering import GUESSES, causes_data, claim_text, effort_text, nothing_text
 from checker.excerpts import Excerpts
 from checker.findings import Fault
 from checker.losses import Repairs
@@ -72,9 +72,9 @@ def _cause_lines(story: Story, causes: Causes, excerpts: Excerpts, most: int) ->
     """The lines to look at, each with what its trial showed."""
     effort = effort_text(causes, "the same mission" if causes.flown in (0, story.number) else "one that fails alike")
     if not causes.ranked:
-        return [f"none of the changes tried makes it pass ({effort})"]
+        return [nothing_text(effort)]
     if causes.ranked[0].claim in GUESSES:
-        lines = [f"none of the changes tried makes it pass ({effort}); guesses, the likeliest first:"]
+        lines = [f"{nothing_text(effort)}; guesses, the likeliest first:"]
     else:
         lines = [f"causes, the likeliest first ({effort}):"]
     for place, cause in enumerate(causes.ranked[:most], 1):
@@ -89,20 +89,13 @@ def _step_lines(index: int, step: Step, story: Story, excerpts: Excerpts, causes
     lines = [f"{index:>4}  {when}{step_text(step, story)}{step_label(step, causes)}"]
     if step.place is not None:
         lines += excerpt_lines(step.place, excerpts, marked=step.kind in (StepKind.FAULT, StepKind.BROKEN))
-    if step.made is not None:
-        cause = cause_number(step.made, causes)
+    beside = [("where the object is made", step.made, False)] if step.made is not None else []
+    beside += [(standing_text(one), one.place, False) for one in step.under]
+    beside += [("where the limit is set", limit, True) for limit in step.limits]
+    for said, place, is_marked in beside:
+        cause = cause_number(place, causes)
         mark = f" (cause {cause})" if cause else ""
-        lines += [f"      where the object is made{mark}:", *excerpt_lines(step.made, excerpts)]
-    for one in step.under:
-        cause = cause_number(one.place, causes)
-        lines += [
-            f"      {standing_text(one)}{f' (cause {cause})' if cause else ''}:",
-            *excerpt_lines(one.place, excerpts),
-        ]
-    for limit in step.limits:
-        cause = cause_number(limit, causes)
-        mark = f" (cause {cause})" if cause else ""
-        lines += [f"      where the limit is set{mark}:", *excerpt_lines(limit, excerpts, marked=True)]
+        lines += [f"      {said}{mark}:", *excerpt_lines(place, excerpts, marked=is_marked)]
     return lines
 
 

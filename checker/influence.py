@@ -52,7 +52,7 @@ def lines_of_influence(program: Program, parameter: str) -> tuple[InfluenceLine,
         placed = list(branched_instructions(rule.body))
         body = [instruction for instruction, _ in placed]
         branches = {
-            id(instruction): tuple(branch_of(guard.span, "else" if is_else else "then") for guard, is_else in within)
+            id(instruction): tuple(branch_of(guard.span, branch_name(is_else)) for guard, is_else in within)
             for instruction, within in placed
         }
         for instruction in body:
@@ -62,6 +62,11 @@ def lines_of_influence(program: Program, parameter: str) -> tuple[InfluenceLine,
                     InfluenceLine(rule.predicate, predicate, line_of(one.span), branches[id(one)]) for one in found
                 ]
     return tuple(dict.fromkeys(lines))
+
+
+def branch_name(is_else: bool) -> str:
+    """What a branch of a guard is called."""
+    return "else" if is_else else "then"
 
 
 def branch_of(guard: Span, name: str) -> Branch:

@@ -18,6 +18,9 @@ from runtime.executive.outcome import Event, EventKind
 from runtime.executive.rendering import event_data
 from runtime.user.transaction_log import SUFFIX, TransactionLog, read_transaction_log
 
+_LAST = ("abort", "end")  # kinds of events after which there is nothing
+_TO_COME = (PropertyKind.REACHED, PropertyKind.WITHIN, PropertyKind.UNTIL)
+
 
 @dataclass(frozen=True, slots=True)
 class ReactorLog:
@@ -51,10 +54,6 @@ class MissionLog:
         """Those on which something was observed."""
         seen = (str(event.get("timeline")) for event in self.events if event.get("kind") == "observation")
         return tuple(dict.fromkeys(seen))
-
-
-_LAST = ("abort", "end")  # kinds of events after which there is nothing
-_TO_COME = (PropertyKind.REACHED, PropertyKind.WITHIN, PropertyKind.UNTIL)
 
 
 def is_log(path: Path) -> bool:

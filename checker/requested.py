@@ -8,7 +8,7 @@ from collections.abc import Collection, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from checker.influence import Branch, InfluenceLine, branch_of, line_of
+from checker.influence import Branch, InfluenceLine, branch_name, branch_of, line_of
 from checker.names import relative_name
 from compiler.instructions import all_instructions, branched_instructions
 from compiler.program import (
@@ -160,7 +160,7 @@ def _asking(
 
 def _is_taken(within: Iterable[tuple[Guard, bool]], taken: Container[Branch]) -> bool:
     """Whether a mission took all branches in which a line stands."""
-    return all(branch_of(guard.span, "else" if is_else else "then") in taken for guard, is_else in within)
+    return all(branch_of(guard.span, branch_name(is_else)) in taken for guard, is_else in within)
 
 
 def _sets(post: Post, reached: Collection[Operand], numbers: Mapping[Operand, float], value: float | None) -> bool:

@@ -128,10 +128,11 @@ def tell(
     assert outcome is not None
     failed = blamed(result)
     conflict = failed.conflict
-    broken = None if fails_by_repairs(result) else broken_plan(result, usual)
+    first = broken_plan(result, usual)
+    broken = None if fails_by_repairs(result) else first
     conflicts = [one for one in (conflict, broken.conflict if broken is not None else None) if one is not None]
     confirmation = _confirmed(result, conflict, fault, text)
-    parameters = suspects(result, fault, usual)
+    parameters = suspects(outcome, fault, first)
     until = _decided_at(result, outcome)
     draws = _draws(outcome, agent, _acting(influence, outcome, until, taken, conflicts), parameters, until, conflicts)
     shown = _tokens_of(outcome, influence, parameters, until)
@@ -178,18 +179,15 @@ def _confirmed(
     return confirm(conflict, text) if conflict is not None else None
 
 
-def suspects(result: MissionResult, fault: Fault | None, usual: Container[Breaking] = frozenset()) -> tuple[str, ...]:
+def suspects(outcome: Outcome, fault: Fault | None, broken: Event | None) -> tuple[str, ...]:
     """The parameters that the story begins with: those of the condition, else those that the failure depends on.
 
-    These are what broke a plan, where that is not `usual`, and what ended the mission.
+    These are what broke a plan first, by its repair, and what ended the mission.
     """
-    if result.outcome is None:
-        return ()
     if fault is not None and fault.condition is not None:
         return fault.condition.parameters
-    broken = broken_plan(result, usual)
     spoken = broken.conflict.parameters if broken is not None and broken.conflict is not None else ()
-    return tuple(dict.fromkeys((*spoken, *draws_behind(result.outcome))))
+    return tuple(dict.fromkeys((*spoken, *draws_behind(outcome))))
 
 
 def _decided_at(result: MissionResult, outcome: Outcome) -> int:
@@ -316,8 +314,9 @@ def _with_askers(
     for step in steps:
         if isinstance(step.subject, ConflictElement) and text is not None:
             asking = (step.subject, text.programs, text.root, held)
-            yield from (Step(StepKind.ASKED, None, line, line.place) for line in lines_that_ask(*asking, taken))
-            chosen = who_chose(step.subject, text.programs, events, text.root)
+            lines = lines_that_ask(*asking, taken)
+            yield from (Step(StepKind.ASKED, None, line, line.place) for line in lines)
+            chosen = None if lines else who_chose(step.subject, text.programs, events, text.root)
             if chosen is not None and not lines_that_ask(*asking):
                 yield Step(StepKind.CHOSEN, None, chosen, chosen.place)
         yield step

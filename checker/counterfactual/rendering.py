@@ -50,10 +50,15 @@ def cause_text(causes: Causes) -> str:
     if causes.first is None and causes.ended is TrialsEnd.CANCELLED:
         return f"not known ({effort_text(causes)})"
     if causes.first is None:
-        return f"none of the changes tried makes it pass ({effort_text(causes)})"
+        return nothing_text(effort_text(causes))
     if causes.first.claim in GUESSES:
-        return f"none of the changes tried makes it pass ({effort_text(causes)}); {claim_text(causes.first)}"
+        return f"{nothing_text(effort_text(causes))}; {claim_text(causes.first)}"
     return f"{claim_text(causes.first)} ({effort_text(causes)})"
+
+
+def nothing_text(effort: str) -> str:
+    """That no flight has shown a cause, and how much was tried."""
+    return f"none of the changes tried makes it pass ({effort})"
 
 
 def _change_text(change: SmallEdit) -> str:

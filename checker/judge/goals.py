@@ -49,8 +49,11 @@ def _is_answer(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration, tok: 
     if any(given is not None and not lies_within(tok.values[index], *given) for index, given in spans):
         return False
     names = [parameter.name for parameter in judge.predicates[tok.record.predicate].code.parameters]
-    for name, given in goal.parameters:
-        wanted: Value = ValueRange(*given) if isinstance(given, tuple) else given
-        if name in names and not may_be_equal(tok.values[FIRST_PARAMETER + names.index(name)], wanted):
-            return False
-    return True
+    return has_arguments(names, tok.values[FIRST_PARAMETER:], goal)
+
+
+def has_arguments(names: Sequence[str], arguments: Sequence[Value], goal: GoalConfiguration) -> bool:
+    """Whether the arguments of a token, by their names, may be what a goal asks for, as far as both say."""
+    found = dict(zip(names, arguments, strict=False))
+    wanted = ((name, ValueRange(*given) if isinstance(given, tuple) else given) for name, given in goal.parameters)
+    return all(name not in found or may_be_equal(found[name], value) for name, value in wanted)

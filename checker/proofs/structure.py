@@ -7,14 +7,15 @@ from math import inf
 
 import z3
 
-from checker.judge.values import ends_of, may_be_equal
+from checker.judge.goals import has_arguments
+from checker.judge.values import ends_of
 from checker.proofs.claims import Number
 from checker.proofs.demands import Demand, RunReader, equal, gap
 from checker.proofs.operands import ProgramNames, Symbols, names_of, token_number
 from compiler.program import END, FIRST_PARAMETER, START, NewGlobal, Program
 from nddl_lang.text.source import Span
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ReactorConfiguration
-from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, TokenRecord, Value, ValueRange
+from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, TokenRecord, Value
 
 _MOST_MERGES = 16
 
@@ -280,11 +281,7 @@ class _ReactorReader:
     def _is_of(self, token: TokenRecord, goal: GoalConfiguration) -> bool:
         """Whether a token has the arguments that a goal asks for."""
         names = [parameter.name for parameter in self.names.predicates[token.predicate].parameters]
-        return all(
-            may_be_equal(token.arguments[names.index(name)], ValueRange(*value) if isinstance(value, tuple) else value)
-            for name, value in goal.parameters
-            if name in names and names.index(name) < len(token.arguments)
-        )
+        return has_arguments(names, token.arguments, goal)
 
     def _arguments(self, token: TokenRecord, goal: GoalConfiguration) -> None:
         """What the mission file says of a goal's arguments."""

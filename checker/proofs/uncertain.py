@@ -228,15 +228,8 @@ class _Builder:
         """What another flight had of a request: the one of its arguments; where these are drawn, that in its place."""
         with_arguments, in_place = self.requests[variable]
         spell = flight.get(with_arguments)
-        if spell is None and not any(
-            one in flight for each in self.requests.values() for one in self._same(each, in_place)
-        ):
-            spell = flight.get(in_place)
-        return spell
-
-    def _same(self, requests: tuple[_Request, _Request], in_place: _Request) -> tuple[_Request, ...]:
-        """A request with its arguments, if it is of the same predicate as another."""
-        return requests[:1] if requests[0][:2] == in_place[:2] else ()
+        alike = (one for one, _ in self.requests.values() if one[:2] == in_place[:2])
+        return flight.get(in_place) if spell is None and not any(one in flight for one in alike) else spell
 
     def _is_before(self, other: str, flown: Value, variable: str) -> bool:
         """Whether another end came before that of a token in the flight, while it lasted."""

@@ -18,7 +18,7 @@ cdef class CodedReactor(TeleoReactor):
     cdef public tuple call
     cdef public dict told_sets
     cdef public object make, kinds, trace, code, wakes, wake, commands
-    cdef public dict seen, events, news, numbers, told, answers
+    cdef public dict seen, events, news, numbers, told
     cdef public list refused_numbers, published, asked, recalled, given_up
 
     cpdef long long next_tick(self, long long tick) except? -1

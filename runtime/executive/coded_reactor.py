@@ -45,7 +45,6 @@ class CodedReactor(TeleoReactor):
         )
         self.commands = Commands(self.name, trace) if self.lookahead > 0 else None
         self.told: dict[int, Mapping[str, Argument]] = {}  # arguments of commands, as users read them
-        self.answers: dict[str, tuple[int, ...]] = {}  # by timeline: the event behind what has just begun there
         self.files = (configuration.file,)
         self.call = (Plain(f"the reactor `{self.name}`", self.files), None, 0)
         self.watch = WATCH
@@ -62,7 +61,7 @@ class CodedReactor(TeleoReactor):
         self.refused_numbers: list[int] = []
         self.wakes = {0}  # the ticks at which the code wants to be called
         self.wake = 0  # the earliest of them
-        self.published: list[Published] = []
+        self.published: list[tuple[Published, Arguments, tuple[int, ...]]] = []  # with the request that it answers
         self.asked: list[Asked] = []
         self.recalled: list[int] = []
         self.numbers: dict[int, int] = {}  # of what was asked for, as the code and as the agent counts
@@ -157,10 +156,11 @@ class CodedReactor(TeleoReactor):
         """Check what the code has said; raises ValueError and its like for what makes no sense."""
         if not now.published and not now.asked and not now.recalled and not now.wakes and not now.declined:
             return
+        said: dict[str, tuple[Published, Arguments]] = {}  # the last word on each timeline
         for one in now.published:
             if one.timeline not in self.internal:
                 raise ValueError(f"it published on `{one.timeline}`, which it does not own")
-            self._arguments(one.timeline, one.predicate, one.arguments)
+            said[one.timeline] = one, self._arguments(one.timeline, one.predicate, one.arguments)
         for asked in now.asked:
             if asked.timeline not in self.external:
                 raise ValueError(f"it asked for a token on `{asked.timeline}`, which it does not use")
@@ -178,15 +178,16 @@ class CodedReactor(TeleoReactor):
             self.commands.decline(number, why, now.tick)
         if now.wakes:
             self._wake_after(now.tick, [min(tick, _NEVER) for tick in now.wakes])
-        self.published, self.recalled = now.published, now.recalled
-        if self.commands is not None:
-            for one in {each.timeline: each for each in now.published}.values():
-                given = self._arguments(one.timeline, one.predicate, one.arguments)
-                self.answers[one.timeline] = self.commands.begin(now.tick, one.timeline, one.predicate, given)
+        self.published = [(*each, self._begun(now.tick, *each)) for each in said.values()]
+        self.recalled = now.recalled
         self.asked = now.asked
         if now.recalled:
             self.asked = [asked for asked in now.asked if asked.number not in now.recalled]
         self.count += len(now.asked)
+
+    def _begun(self, tick: int, one: Published, arguments: Arguments) -> tuple[int, ...]:
+        """The event of the command that has begun with what was published, if there is one."""
+        return () if self.commands is None else self.commands.begin(tick, one.timeline, one.predicate, arguments)
 
     def _wake_after(self, tick: int, added: Iterable[int]) -> None:
         self.wakes = {wake for wake in self.wakes if wake > tick}.union(added)
@@ -198,9 +199,8 @@ class CodedReactor(TeleoReactor):
         if not self.published:
             return found
         causes = tuple(sorted(sorted(set(self.events.values()), reverse=True)[:_MOST_CAUSES]))
-        for one in {each.timeline: each for each in self.published}.values():
-            arguments = self._arguments(one.timeline, one.predicate, one.arguments)
-            behind = self.answers.pop(one.timeline, ()) or causes
+        for one, arguments, answered in self.published:
+            behind = answered or causes
             event = self.trace.record(EventKind.OBSERVATION, self.name, one.timeline, one.predicate, arguments, behind)
             found.append(Observation(tick, one.timeline, one.predicate, arguments, event, self.name))
         self.published = []

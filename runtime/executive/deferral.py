@@ -154,12 +154,7 @@ class Deferral:
             return False
         if not self._says_nothing(bench.predicate_of(current)):
             return False
-        predicates: set[int] = set()
-        for predicate in line.predicates.values():
-            while predicate >= 0:  # what is planned may be named as a class has it that this one extends
-                predicates.add(predicate)
-                predicate = bench.plan.predicate_parent[predicate]
-        return not any(bench.predicate_of(t) in predicates for t in [*bench.undecided(), *bench.unordered()])
+        return not any(bench.predicate_of(t) in line.planned for t in [*bench.undecided(), *bench.unordered()])
 
     def _says_nothing(self, predicate: int) -> bool:
         known = self._is_plain.get(predicate)

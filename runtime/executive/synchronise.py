@@ -222,13 +222,13 @@ class _Search:
         """How `predicate` may be observed: by a planned token that may start now, or by itself."""
         bench = self.bench
         found: list[_Choice] = []
-        if predicate == NOTHING or line.news is None:
+        if predicate == NOTHING:
             return found
+        assert line.news is not None
         token = bench.next_of(line.object_id, line.current)
         while token >= 0:
-            planned = bench.predicate_of(token)
-            if bench.is_met_by(planned, predicate) and self._may_start(token):
-                found.append((_MEET, token, planned))
+            if bench.is_met_by(bench.predicate_of(token), predicate) and self._may_start(token):
+                found.append((_MEET, token, bench.predicate_of(token)))
             token = bench.following(token)
         for _, token, _ in found:
             if self.asked.is_answered(token, line.news.event):

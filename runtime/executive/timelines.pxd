@@ -8,6 +8,7 @@ cdef class TimelineState:
     cdef public dict predicates
     cdef public list others
     cdef public object news, source
+    cdef public set planned
 
 
 cdef class Goal:

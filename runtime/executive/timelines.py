@@ -16,6 +16,7 @@ class TimelineState:
         self.predicates = predicates
         # What an internal timeline may hold when nothing else explains now (T-REX 1.4, choice OTHER).
         self.others = [p for name, p in predicates.items() if p != default and name not in ("undefined", "Failed")]
+        self.planned: set[int] = set()  # its predicates, and those that they inherit: what a plan may call its tokens
         self.accepts_requests = False  # whether its users may ask for tokens, by the model
         self.is_early = False  # whether what is planned starts as soon as it may, though nobody asked for it
         self.is_late = False  # whether what nobody asked for starts only when it must

@@ -84,7 +84,12 @@ class PlanView:
                 predicates[predicate.name.rpartition(".")[2]] = number
         (self.internal_objects if is_internal else self.external_objects).add(o)
         default = predicates.get(self.default_name(o), NONE)
-        return TimelineState(name, o, is_internal, default, predicates)
+        line = TimelineState(name, o, is_internal, default, predicates)
+        for own in predicates.values():
+            while own >= 0:
+                line.planned.add(own)
+                own = self.plan.predicate_parent[own]
+        return line
 
     def default_name(self, o: int) -> str:
         """The default predicate that a timeline names; `undefined` if it names none."""
