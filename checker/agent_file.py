@@ -3,6 +3,7 @@
 What is read has the form of `mission.toml`, and is checked with it; only what XML can get wrong is told here.
 """
 
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from nddl_lang.text.toml_places import Path as Keys
 from nddl_lang.text.toml_places import Stretch
 from runtime.solver.configuration.element import Attribute, Element
 from runtime.solver.configuration.read_xml import read_xml
+from runtime.user.transaction_log import SUFFIX, TransactionLogError, read_transaction_log
 
 _CLOCKS = {
     "StepClock": {"steps": "steps"},
@@ -38,10 +40,12 @@ _MODELLED = {
     "maxDepth": "max_depth",
 }
 _CODED = {"name": "name", "latency": "latency", "lookahead": "lookahead", "code": "code"}
+_PLAYED = {"name": "name", "latency": "latency", "lookahead": "lookahead"}
 _UNREAD = ("config", "log", "verbose", "all_plans", "relation_gv")  # what T-REX writes beside the mission
 _FLAGS = {"true": True, "1": True, "false": False, "0": False}
 _DOMAINS = ("int", "float", "bool", "string", "symbol", "enum", "date", "duration")
-_CONTENTS = ("Use", "Plugin", "Goal", "EuropaReactor", "PythonReactor", *_CLOCKS)
+_CONTENTS = ("Use", "Plugin", "Goal", "EuropaReactor", "PythonReactor", "LogPlayer", *_CLOCKS)
+_EUROPA = "europa_pg"  # T-REX's plug-in of the reactors that are at home here
 
 
 @dataclass(slots=True)
@@ -65,7 +69,12 @@ class _AgentFile:
         agent = self._with_config(agent)
         self._put(("mission",), agent.span)
         self._attributes(agent, self.mission, ("mission",), _AGENT, _AGENT_UNREAD)
-        for child in agent.children:
+        self._contents(agent)
+        return {"mission": self.mission, "reactor": self.reactors, "goal": self.goals, "clock": self.steps}
+
+    def _contents(self, parent: Element) -> None:
+        """What stands in an agent, a plug-in or its `Else`."""
+        for child in parent.children:
             match child.tag:
                 case "Goal":
                     self._goal(self._with_config(child))
@@ -73,15 +82,49 @@ class _AgentFile:
                     self._reactor(self._with_config(child), _MODELLED)
                 case "PythonReactor":
                     self._reactor(self._with_config(child), _CODED)
+                case "LogPlayer":
+                    self._player(self._with_config(child))
                 case "Use":
                     self._use(child)
                 case "Plugin":
-                    self.text.diagnostics.append(NO_EFFECT.at(child.span, what="Plugin", help=_NO_PLUGIN))
+                    self._plugin(child)
                 case tag if tag in _CLOCKS:
                     self._clock(child)
+                case "Else" if parent.tag == "Plugin":
+                    pass  # what holds where the plug-in is not there
                 case _:
-                    self._complain_of_element(child, "Agent", _CONTENTS)
-        return {"mission": self.mission, "reactor": self.reactors, "goal": self.goals, "clock": self.steps}
+                    self._complain_of_element(child, parent.tag, _CONTENTS)
+
+    def _plugin(self, plugin: Element) -> None:
+        """A plug-in of T-REX is not loaded: what it contains is read as far as it is at home here, else its `Else`."""
+        own = [child for child in plugin.children if child.tag != "Else"]
+        otherwise = next((child for child in plugin.children if child.tag == "Else"), None)
+        if otherwise is not None and not (own and all(child.tag in _CONTENTS for child in own)):
+            self._contents(otherwise)
+            return
+        name = plugin.find("name")
+        if not own and (name is None or name.value != _EUROPA):
+            self.text.diagnostics.append(NO_EFFECT.at(plugin.span, what="Plugin", help=_NO_PLUGIN))
+        self._contents(plugin)
+
+    def _player(self, element: Element) -> None:
+        """What a reactor did, from its log; one of T-REX says as well which timelines it had."""
+        named = {attribute.name: attribute for attribute in element.attributes}
+        name = named["name"].value if "name" in named else ""
+        trace = named["file"].value if "file" in named else f"{name}{SUFFIX}"
+        path: Keys = ("reactor", len(self.reactors))
+        place = named["file"].span if "file" in named else element.span
+        for key in ((), ("code",), ("settings",), ("settings", "trace")):
+            self._put((*path, *key), place if key else element.span)
+        table: TomlTable = {"code": ":LogPlayer", "settings": {"trace": trace}}
+        if trace.endswith(SUFFIX):
+            with suppress(OSError, TransactionLogError):  # told where the settings are looked at
+                log = read_transaction_log(self.root / trace)
+                table |= {"internal": list(log.provided), "external": list(log.used)}
+        else:
+            table["settings"] = {"trace": trace, "reactor": name}
+        self._attributes(element, table, path, _PLAYED, (*_UNREAD, "file"))
+        self.reactors.append(table | self._timelines(element, path, is_coded=True))
 
     def _with_config(self, element: Element) -> Element:
         """An element with what the file named by `config` adds; what stands in the element itself counts first."""
@@ -121,6 +164,11 @@ class _AgentFile:
             if same is not None:
                 self.text.diagnostics.append(NO_EFFECT.at(same.span, what="synch_cfg", help=_ONE_SOLVER))
             self._attributes(element, table, path, known, (*_UNREAD, "synch_cfg"))
+        table |= self._timelines(element, path, is_coded=known is _CODED)
+        self.reactors.append(table)
+
+    def _timelines(self, element: Element, path: Keys, *, is_coded: bool) -> TomlTable:
+        """The timelines that a reactor declares, by the keys of a mission file."""
         lines: dict[str, list[str]] = {"internal": [], "external": [], "observe": []}
         for child in element.children:
             key = child.tag.lower()
@@ -133,11 +181,10 @@ class _AgentFile:
                 self._put((*path, key, len(lines[key])), name.span)
                 lines[key].append(name.value)
                 self._attributes(child, {}, (), {"name": "name"}, ("goals", "listen"))
-                if self._only_observes(child, is_coded=known is _CODED):
+                if self._only_observes(child, is_coded=is_coded):
                     self._put((*path, "observe", len(lines["observe"])), name.span)
                     lines["observe"].append(name.value)
-        table |= {key: names for key, names in lines.items() if names}
-        self.reactors.append(table)
+        return {key: names for key, names in lines.items() if names}
 
     def _only_observes(self, timeline: Element, *, is_coded: bool) -> bool:
         """Whether a reactor with a model never asks for anything there: `goals="false"`, of timelines that it uses."""
@@ -267,7 +314,9 @@ class _AgentFile:
 
     def _complain_of_element(self, element: Element, parent: str, known: tuple[str, ...]) -> None:
         close = nearest(element.tag, list(known))
-        advice = f"did you mean `{close}`?" if close else "known elements: " + ", ".join(known)
+        is_reactor = known is _CONTENTS and element.find("latency") is not None
+        others = _FOREIGN if is_reactor else "known elements: " + ", ".join(known)
+        advice = f"did you mean `{close}`?" if close else others
         self.text.diagnostics.append(
             UNKNOWN_ELEMENT.at(element.span, tag=element.tag, parent=f"<{parent}>", help=advice)
         )
@@ -278,6 +327,10 @@ class _AgentFile:
 
 
 _NO_PLUGIN = 'reactors in Python are loaded by `<PythonReactor code="file.py:Class"/>`'
+_FOREIGN = (
+    "reactors of T-REX's plug-ins are not here: let a simulator in NDDL (`<EuropaReactor model=.../>`) or a reactor in "
+    "Python (`<PythonReactor code=.../>`) own their timelines, or play their log (`<LogPlayer file=.../>`)"
+)
 _ASKS_ITSELF = "the owner decides what it takes, and a reactor in Python what it asks for"
 _NO_PLANS = "plans are not published, only observations"
 _ONE_SOLVER = "the present is synchronised with the flaw handling of `plan_cfg`"

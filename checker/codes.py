@@ -48,6 +48,7 @@ NO_THREATS = Code(
     "NDDL733", Severity.WARNING, "rule", "nothing orders the uses of `{resource}` in the plans of `{reactor}`"
 )
 NO_CLASS = Code("NDDL736", Severity.ERROR, "name", "{where} has no class `{name}`")
+NO_LOG = Code("NDDL737", Severity.ERROR, "rule", "`{path}` cannot be played: {problem}")
 NO_REQUESTS = Code(
     "NDDL734", Severity.WARNING, "rule", "`{timeline}` takes no requests: its owner `{owner}` has a lookahead of 0"
 )

@@ -14,13 +14,16 @@ from checker.agent_file import read_agent_file
 from checker.batch_xml import read_batch
 from checker.clock_table import read_clock
 from checker.codes import CYCLE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE, UNKNOWN_CHOICE
+from checker.declared_roles import declared_roles
 from checker.figures import Figures, read_figures
 from checker.goal_fit import goals_out_of_time
 from checker.losses import Limit
 from checker.mission_table import MissionText, Table, TomlTable, is_finite_number
 from checker.named_files import look_at, look_at_class
 from checker.parameter_tables import read_parameters
+from checker.played_log import look_at_log
 from checker.property_tables import read_properties
+from nddl_lang.mission_suffixes import AGENT_SUFFIXES
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_source
@@ -39,6 +42,7 @@ from runtime.executive.configuration import (
 )
 from runtime.executive.outcome import SourcePlace
 from runtime.user.limit import USUAL
+from runtime.user.log_player import LogPlayer
 
 LARGEST_SEED = (1 << 53) - 1  # what JSON readers agree on
 MOST_MISSIONS = 1_000_000  # of a batch: each has its place in memory
@@ -78,8 +82,8 @@ def read_mission(path: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:
 
 
 def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:
-    """Read a mission's text; paths in it are relative to `root`. A file `.xml` is T-REX's agent file."""
-    if source.name.endswith(".xml"):
+    """Read a mission's text; paths in it are relative to `root`. A file `.xml` or `.cfg` is T-REX's agent file."""
+    if source.name.endswith(AGENT_SUFFIXES):
         text, found = read_agent_file(source, root)
         return _mission_of(text, found, root) if found else (None, tuple(text.diagnostics))
     try:
@@ -195,20 +199,23 @@ def _setting(table: Table, key: str) -> Value:
     return 0
 
 
-def _read_model(table: Table) -> ReactorConfiguration:
-    """A reactor with a model."""
+def _read_model(table: Table, root: Path) -> ReactorConfiguration:
+    """A reactor with a model; where the file lists no timelines, they have the roles that the model declares."""
     default = ReactorConfiguration("", "")
+    model = table.string("model")
+    is_told = any(table.has(key) for key in ("internal", "external", "observe"))
+    roles = {} if is_told or not model else declared_roles(root / model)
     return ReactorConfiguration(
         name=table.string("name"),
-        model=table.string("model"),
+        model=model,
         latency=table.whole("latency", default.latency, 0),
         lookahead=table.whole("lookahead", default.lookahead, 0),
-        internal=table.strings("internal"),
-        external=table.strings("external"),
+        internal=roles.get("internal") or table.strings("internal"),
+        external=roles.get("external") or table.strings("external"),
         solver=table.string("solver", "") or None,
         early=table.strings("early"),
         late=table.strings("late"),
-        observe=table.strings("observe"),
+        observe=roles.get("observe") or table.strings("observe"),
         max_steps=table.whole("max_steps", 0, 0) or None,
         max_depth=table.whole("max_depth", 0, 0) or None,
     )
@@ -223,7 +230,7 @@ def _read_reactors(
     twins: set[str] = set()  # who uses one of these does not say whom
     for table in tables:
         is_code = table.has("code")
-        reactor: ReactorConfiguration | CodeConfiguration = _read_code(table) if is_code else _read_model(table)
+        reactor: ReactorConfiguration | CodeConfiguration = _read_code(table) if is_code else _read_model(table, root)
         table.close()
         reactors.append(reactor)
         files = (
@@ -235,6 +242,8 @@ def _read_reactors(
             is_there = not file or look_at(table.text, (*table.path, key), root, file)
             if isinstance(reactor, CodeConfiguration) and reactor.class_name and is_there:
                 look_at_class(table.text, (*table.path, key), root, reactor.file, reactor.class_name)
+        if isinstance(reactor, CodeConfiguration) and not reactor.file and reactor.class_name == LogPlayer.__name__:
+            look_at_log(table.text, table.path, root, dict(reactor.settings))
         span = table.text.value_span((*table.path, "name"))
         if reactor.name in names:
             _complain_of_twin(table, span, "the reactor", reactor.name, names[reactor.name])

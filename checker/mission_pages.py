@@ -12,6 +12,7 @@ from checker.codes import (
     NO_EFFECT,
     NO_FILE,
     NO_GOALS,
+    NO_LOG,
     NO_OWNER,
     NO_PREDICATE,
     NO_RANGE,
@@ -280,6 +281,16 @@ MISSION_PAGES = (
         "The mission cannot be flown. The file is read, not run: a name that it is given in any way counts.",
         '[[reactor]]\nname = "detector"\ncode = "detector.py:Detectr"\n',
         '[[reactor]]\nname = "detector"\ncode = "detector.py:Detector"\n',
+        "toml",
+    ),
+    RulePage(
+        NO_LOG,
+        'A player (`code = ":LogPlayer"`) names a file that is no trace, or lacks the reactor whose place it takes.',
+        "It would do nothing, or end the mission at its first tick.",
+        '[[reactor]]\nname = "vehicle"\ncode = ":LogPlayer"\ninternal = ["helm"]\n[reactor.settings]\n'
+        'trace = "flight.jsonl"\nreactor = "vehicel"\n',
+        '[[reactor]]\nname = "vehicle"\ncode = ":LogPlayer"\ninternal = ["helm"]\n[reactor.settings]\n'
+        'trace = "flight.jsonl"\nreactor = "vehicle"\n',
         "toml",
     ),
     RulePage(

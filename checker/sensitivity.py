@@ -34,10 +34,11 @@ def sensitivities(
 ) -> tuple[Sensitivity, ...]:
     """Of each parameter that is drawn once per mission, the greatest distance first; from plain random missions.
 
-    `confidence` is that all intervals cover.
+    `confidence` is that all intervals cover. Where no mission passes, failing depends on no parameter.
     """
-    seeds = [one.seed for one in results if one.verdict is Verdict.FAIL and one.point.role is MissionRole.RANDOM]
-    if len(seeds) < _FEWEST:
+    random = [one for one in results if one.point.role is MissionRole.RANDOM]
+    seeds = [one.seed for one in random if one.verdict is Verdict.FAIL]
+    if len(seeds) < _FEWEST or all(one.verdict is not Verdict.PASS for one in random):
         return ()
     axes = axes_of(agent)
     each = 1.0 - (1.0 - confidence) / max(1, len(axes))

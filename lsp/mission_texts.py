@@ -12,6 +12,7 @@ from lsp.diagnostics import Conversion
 from lsp.positions import Encoding, Lines, replaced
 from lsp.uris import path_of
 from nddl_lang.lint.configuration import NAME, PROJECT
+from nddl_lang.mission_suffixes import AGENT_SUFFIXES
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source
 from nddl_lang.text.toml_places import HEADER
@@ -19,8 +20,8 @@ from runtime.solver.configuration.read_toml import is_solver_toml
 
 # All that is wrong with a text of that name in that folder; whether the workspace is trusted.
 Examine = Callable[[Source, Path, bool], Iterable[Diagnostic]]
-_SUFFIX, _AGENT_SUFFIX = ".toml", ".xml"
-_AGENT = re.compile(r"<Agent\b")
+_SUFFIX = ".toml"
+_ROOT = re.compile(r"<(?:Agent|Solver)\b")
 _BEGUN = re.compile(r"[ \t]*\[\[?(?=[^\]\n]*\Z)")  # a header that is not closed yet
 KEY = re.compile(r"""^[ \t]*([A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')[ \t]*=""", re.MULTILINE)
 _MODEL = re.compile(r"""^[ \t]*model[ \t]*=[ \t]*["']([^"'\n]+)["']""", re.MULTILINE)
@@ -48,8 +49,8 @@ class OpenMission:
 
     @property
     def is_agent_file(self) -> bool:
-        """Whether it is an agent file of T-REX: of that only what is wrong is told."""
-        return self.path.suffix == _AGENT_SUFFIX
+        """Whether it is an agent file of T-REX, or a solver's in XML: of these only what is wrong is told."""
+        return self.path.suffix in AGENT_SUFFIXES
 
     @property
     def models(self) -> list[Path]:
@@ -163,7 +164,7 @@ class MissionTexts:
     @staticmethod
     def is_mission(uri: str) -> bool:
         """Whether a file may be a mission file, by its name."""
-        return uri.endswith((_SUFFIX, _AGENT_SUFFIX)) and path_of(uri) is not None
+        return uri.endswith((_SUFFIX, *AGENT_SUFFIXES)) and path_of(uri) is not None
 
     def find(self, uri: str) -> OpenMission | None:
         """The open mission file that the editor calls `uri`."""
@@ -179,8 +180,8 @@ class MissionTexts:
         if path is None:
             return None
         has_name = path.name in _CONFIGURATIONS or any(word in path.name.lower() for word in _WORDS)
-        if path.suffix == _AGENT_SUFFIX:
-            if _AGENT.search(text) is None:
+        if path.suffix in AGENT_SUFFIXES:
+            if _ROOT.search(text) is None:
                 return None
         elif not has_name and _MISSION.search(text) is None and not is_solver_toml(text):
             return None

@@ -115,9 +115,10 @@ def command(
 ) -> int:
     """Check a model by flying many missions, or check the text of one model.
 
-    PATH is a mission file (.toml, or T-REX's .xml), by default the one here: its models are checked first, then its
-    missions are flown. Ends with 0 if not too many missions fail, with 1 if too many do. If PATH is a model (.nddl),
-    only its text is checked. What is finished is stored, and a run that was ended before its time goes on from there.
+    PATH is a mission file (.toml, or T-REX's .xml or .cfg), by default the one here: its models are checked first,
+    then its missions are flown. Ends with 0 if not too many missions fail, with 1 if too many do. If PATH is a
+    model (.nddl), only its text is checked. What is finished is stored, and a run that was ended before its time
+    goes on from there.
     """
     if fresh and resume:
         raise Unusable("--fresh flies everything again, --resume only what is missing", "leave one of them out")

@@ -48,7 +48,7 @@ def command(
     """Tell which reactors are determined: they fly as register code, without a plan database.
 
     FILE is a model (.nddl), taken as a simulator that owns its internal timelines, or a mission file (.toml, or
-    T-REX's .xml). Ends with 1 if a simulator leaves a choice.
+    T-REX's .xml or .cfg). Ends with 1 if a simulator leaves a choice.
     """
     (file,) = readable((path,), directories)
     if file.suffix in MISSION_SUFFIXES:

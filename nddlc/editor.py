@@ -18,7 +18,7 @@ from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source, Span
 from nddlc.known import known_callables
 from nddlc.main import named
-from runtime.solver.configuration.read_toml import is_solver_toml
+from runtime.solver.configuration.read_toml import is_solver_text
 from runtime.user.fault import UserCodeError
 
 
@@ -70,8 +70,8 @@ def examine_for_editor(source: Source, root: Path, is_trusted: bool) -> tuple[Di
 
 
 def _complaints(source: Source, root: Path, is_trusted: bool) -> Iterator[Diagnostic]:
-    is_agent_file = source.name.endswith(".xml")
-    if not is_agent_file and ("solver" in Path(source.name).name.lower() or is_solver_toml(source.text)):
+    is_named_so = source.name.endswith(".toml") and "solver" in Path(source.name).name.lower()
+    if is_named_so or is_solver_text(source.name, source.text):
         yield from named("runtime.solver.configuration.read:read_configuration")(source)[1]
         return
     mission, found = named("checker.mission:parse_mission")(source, root)

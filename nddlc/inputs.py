@@ -13,6 +13,7 @@ import click
 
 from nddl_lang.lint.configuration import find_configuration, read_configuration
 from nddl_lang.lint.settings import Settings
+from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.roots import parts_of, roots_among
 from nddl_lang.text.nearest import nearest
@@ -28,11 +29,10 @@ STORE = Path(".nddlc/runs.sqlite")  # where runs are kept unless another place i
 _NUMBER = re.compile(r"k?[0-9]+")
 _MISSION = "`nddlc lint` looks at missions and configurations"
 _NO_MODELS = {
-    ".toml": _MISSION,
-    ".xml": _MISSION,
+    **dict.fromkeys(MISSION_SUFFIXES, _MISSION),
     **dict.fromkeys((".py", ".md", ".json", ".jsonl", ".sqlite", ".html"), "`nddlc --help` tells what reads others"),
 }
-_NAMED = (".nddl", ".toml", ".xml", ".json", ".jsonl")
+_NAMED = (".nddl", *MISSION_SUFFIXES, ".json", ".jsonl")
 
 
 class Unusable(click.ClickException):

@@ -66,11 +66,11 @@ def command(
 ) -> int:
     """Report everything that is wrong with models.
 
-    FILE is a model, a mission file (.toml, or T-REX's .xml), or a directory with models; of those, files that others
-    include are looked at as parts of them. Without one it is the folder of the project's settings, or this one.
-    Errors stop a model, warnings are very likely mistakes, remarks are worth a look. Settings stand in nddlc.toml or
-    in [tool.nddlc] of pyproject.toml, upwards from each file. Ends with 0 if nothing weighs as much as --fail-on,
-    with 1 otherwise.
+    FILE is a model, a mission file (.toml, or T-REX's .xml or .cfg), or a directory with models; of those, files
+    that others include are looked at as parts of them. Without one it is the folder of the project's settings, or
+    this one. Errors stop a model, warnings are very likely mistakes, remarks are worth a look. Settings stand in
+    nddlc.toml or in [tool.nddlc] of pyproject.toml, upwards from each file. Ends with 0 if nothing weighs as much
+    as --fail-on, with 1 otherwise.
     """
     paths = models_in(files, directories)
     # What one run makes lives to its end: looking for garbage would only cost, the more the larger the model.
@@ -117,7 +117,7 @@ def _check(checker: Checker, path: Path, settings: Settings) -> tuple[Diagnostic
         return tuple(read_configuration(path)[1])
     found: tuple[Diagnostic, ...]
     source = read_source(path)
-    if path.suffix == ".toml" and named("runtime.solver.configuration.read_toml:is_solver_toml")(source.text):
+    if named("runtime.solver.configuration.read_toml:is_solver_text")(path.name, source.text):
         found = named("runtime.solver.configuration.read:read_configuration")(source)[1]
     else:
         found = named("checker.models:examine")(path)

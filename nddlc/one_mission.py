@@ -31,7 +31,7 @@ def prepare(
     """
     (file,) = readable((path,), ())
     if file.suffix not in MISSION_SUFFIXES:
-        raise Unusable(f"`{path}` is no mission file (.toml, or T-REX's .xml)")
+        raise Unusable(f"`{path}` is no mission file (.toml, or T-REX's .xml or .cfg)")
     mission, found = read_mission(file)
     if mission is None:
         _tell(found)

@@ -99,9 +99,9 @@ def command(
 ) -> int:
     """Search a plan for a model and show it.
 
-    FILE is a model, or a mission file (.toml, or T-REX's .xml): then a plan for the goals of its planner is searched,
-    up to its final tick. Ends with 0 if there is a plan, with 1 if there is none, it was not found in time, or leaves
-    goals out.
+    FILE is a model, or a mission file (.toml, or T-REX's .xml or .cfg): then a plan for the goals of its planner is
+    searched, up to its final tick. Ends with 0 if there is a plan, with 1 if there is none, it was not found in
+    time, or leaves goals out.
     """
     (path,) = readable((file,), directories)
     text = None
@@ -109,7 +109,7 @@ def command(
         path, text, solver_file, last = goals_of(path, reactor)
         config, horizon = config or solver_file, horizon or (0, last)
     elif reactor is not None:
-        raise Unusable("--reactor names a reactor of a mission file (.toml, or T-REX's .xml)")
+        raise Unusable("--reactor names a reactor of a mission file (.toml, or T-REX's .xml or .cfg)")
     configuration = _configuration(config)
     if horizon is not None and horizon[0] >= horizon[1]:
         raise Unusable(f"the horizon from {horizon[0]} to {horizon[1]} is empty")

@@ -62,9 +62,9 @@ def command(
 ) -> int:
     """Fly one mission and show what happened.
 
-    MISSION is a mission file (.toml), by default the one here, or an agent file of T-REX (.xml); RUN#N is mission N of
-    a run of `nddlc check`, such as `latest#37`. It is flown as fast as it can be, unless `--real-time` is given.
-    Ends with 0 if the mission passes, with 1 if it fails, with 2 if it cannot be flown.
+    MISSION is a mission file (.toml), by default the one here, or an agent file of T-REX (.xml, .cfg); RUN#N is
+    mission N of a run of `nddlc check`, such as `latest#37`. It is flown as fast as it can be, unless `--real-time`
+    is given. Ends with 0 if the mission passes, with 1 if it fails, with 2 if it cannot be flown.
     """
     if path is not None and "#" in path and not Path(path).exists():
         file, mission, models, own_seed = named("nddlc.stored:stored_flight")(path, store_path, is_trusted)

@@ -73,10 +73,10 @@ def command(
 ) -> int:
     """Judge PLAN against its model, by code that shares nothing with the planner.
 
-    PLAN is a mission file (.toml, or T-REX's .xml), which is flown; a record or a plan (.json); a trace (.jsonl), which
-    needs --mission unless it names its own; or with --mission a log of T-REX (.tr.log), or the directory of a mission's
-    logs. docs/validate.md describes the documents. The exit code is 1 where something breaks the model. With --smt z3
-    judges the same values, by what the text of the model demands.
+    PLAN is a mission file (.toml, or T-REX's .xml or .cfg), which is flown; a record or a plan (.json); a trace
+    (.jsonl), which needs --mission unless it names its own; or with --mission a log of T-REX (.tr.log), or the
+    directory of a mission's logs. docs/validate.md describes the documents. The exit code is 1 where something
+    breaks the model. With --smt z3 judges the same values, by what the text of the model demands.
     """
     present(plan)
     present(mission_path)

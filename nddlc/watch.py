@@ -16,9 +16,10 @@ from typing import Any
 
 import click
 
+from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.text.read import LARGEST
 
-_KINDS = (".nddl", ".toml", ".xml", ".py", ".csv", ".json")
+_KINDS = (".nddl", *MISSION_SUFFIXES, ".py", ".csv", ".json")
 _NAMED = re.compile(rb'"([^"\n]{1,300}\.(?:nddl|toml|xml|py|csv|json))["|:]')  # as files name others
 _OUTPUT = ("nddlc-report", "node_modules", "__pycache__")
 _PERIOD = 0.25  # seconds between two looks
@@ -129,7 +130,7 @@ def _is_left_out(folder: Path) -> bool:
 
 def _named_in(path: Path, size: int) -> Iterator[Path]:
     """The files that the text of a file names."""
-    if path.suffix not in (".nddl", ".toml", ".xml") or size > LARGEST:
+    if path.suffix not in (".nddl", *MISSION_SUFFIXES) or size > LARGEST:
         return
     with suppress(OSError):
         for match in _NAMED.finditer(path.read_bytes()):

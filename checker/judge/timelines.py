@@ -72,14 +72,23 @@ def judge_timelines(
     if not left:
         return
     found = _sequences(judge, bench, left)
+    published = {line: past[line].events(bench.last_tick) for line in shared if line in left}
+    for timeline, events in published.items():
+        ticks = {one.tick for one in events}
+        found[timeline] = [tok for tok in found.get(timeline, ()) if not _is_only_planned(tok, ticks)]
     for timeline, tokens in found.items():
         if timeline not in in_order:
             _judge_order(bench, timeline, tokens, timeline in shared)
     for timeline in shared:
         if timeline not in told:
-            tokens = found.get(timeline, [])
-            published = past[timeline].events(bench.last_tick)
-            _judge_observations(judge, bench, timeline, tokens, published, timeline in internal)
+            _judge_observations(judge, bench, timeline, found[timeline], published[timeline], timeline in internal)
+
+
+def _is_only_planned(tok: Tok, published: set[int]) -> bool:
+    """Whether a repair took a token out of the plan by the tick at which it was to begin, and nobody began it."""
+    start = tok.record.start
+    assert isinstance(start, int)
+    return tok.is_cut and (tok.record.tick < start or (tok.record.tick == start and start not in published))
 
 
 def _judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool) -> None:

@@ -127,7 +127,7 @@ def _case_name(one: FlownCase) -> str:
 
 def sensitivity_line(findings: Findings) -> str:
     """The parameters that drive failing; empty where none can be told from chance."""
-    telling = [one for one in findings.sensitivities if one.interval[0] > 0.0]
+    telling = [one for one in findings.sensitivities if round(one.interval[0], 2) > 0.0]
     if not telling:
         return ""
     listed = [

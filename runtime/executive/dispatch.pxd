@@ -1,7 +1,7 @@
 # The C types of `dispatch.py`.
 
 cimport cython
-from runtime.executive.holding cimport free_at, is_blocked, is_tied
+from runtime.executive.holding cimport free_at, hangs_on_action, is_blocked, is_tied
 from runtime.executive.timelines cimport TimelineState
 from runtime.executive.view cimport whole_bound
 from runtime.executive.workbench cimport Workbench

@@ -1,6 +1,6 @@
 """Decide which planned tokens are asked of the owners of their timelines, and when requests are taken back."""
 
-from runtime.executive.holding import free_at, is_blocked, is_tied
+from runtime.executive.holding import free_at, hangs_on_action, is_blocked, is_tied
 from runtime.executive.messages import Request
 from runtime.executive.outcome import EventKind, TimeBounds
 from runtime.executive.timelines import NOTHING, TimelineState
@@ -106,7 +106,8 @@ class Dispatch:
         """Whether a token is to be asked for now."""
         if self.bench.lower(self.bench.start(token)) >= final_tick or self.due_time(line, token, tick) > tick:
             return False
-        return not is_blocked(self.bench, token, line.current, tick)
+        # What an action needs is not waited with: often the world changes by that alone (T-REX 1.8).
+        return hangs_on_action(self.bench, token) or not is_blocked(self.bench, token, line.current, tick)
 
     def due_time(self, line: TimelineState, token: int, tick: int) -> float:
         """The tick at which the owner is to be asked for a token (T-REX 1.8).
@@ -125,7 +126,8 @@ class Dispatch:
         bench = self.bench
         token = self.next_request(line)
         if token != NOTHING:
-            return max(self.due_time(line, token, tick), free_at(bench, token, line.current, tick))
+            due = self.due_time(line, token, tick)
+            return due if hangs_on_action(bench, token) else max(due, free_at(bench, token, line.current, tick))
         # What waits for the end of what is open there is to be asked for when it cannot wait any more.
         before = self.open_now(line)
         token = bench.next_of(line.object_id, line.current)

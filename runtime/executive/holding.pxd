@@ -6,11 +6,14 @@ from runtime.constraints.engine cimport Engine
 from runtime.executive.workbench cimport Workbench
 from runtime.plan.store.plan cimport Plan
 
-cdef long long END, INFINITY, NONE, ROLE_TOKEN, SPAN_CLOCK, SPAN_EXECUTIVE, SUPPORT_EDGE, SUPPORT_RESTRICTION
+cdef long long END, FLAG_ACTION, FLAG_CONDITION, FLAG_EFFECT, INFINITY, NONE, ROLE_TOKEN
+cdef long long SPAN_CLOCK, SPAN_EXECUTIVE, SUPPORT_EDGE, SUPPORT_RESTRICTION
 
 
 @cython.locals(ends=list, start="long long")
 cpdef bint is_blocked(Workbench bench, long long t, long long current, long long tick) except -1
+
+cpdef bint hangs_on_action(Workbench bench, long long t) except -1
 
 @cython.locals(engine=Engine, free=double, start="long long", v="long long")
 cpdef double free_at(Workbench bench, long long t, long long current, long long tick) except? -1.0

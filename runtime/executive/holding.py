@@ -4,7 +4,7 @@ from compiler.program import END
 from runtime.constraints.domains.tags import SUPPORT_EDGE, SUPPORT_RESTRICTION
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE
 from runtime.executive.workbench import Workbench
-from runtime.plan.tags import INFINITY, NONE, ROLE_TOKEN
+from runtime.plan.tags import FLAG_ACTION, FLAG_CONDITION, FLAG_EFFECT, INFINITY, NONE, ROLE_TOKEN
 
 
 def is_blocked(bench: Workbench, t: int, current: int, tick: int) -> bool:
@@ -17,6 +17,20 @@ def is_blocked(bench: Workbench, t: int, current: int, tick: int) -> bool:
     while ends and is_tied(bench, ends[len(ends) - 1], start):
         ends.pop()
     return len(ends) > 0 or _is_held_back(bench, t, tick)
+
+
+def hangs_on_action(bench: Workbench, t: int) -> bool:
+    """Whether `t` is an action, or a condition or an effect of one, or follows from such a token.
+
+    What stands between must not begin as late as it may: that would hold the action back as well.
+    """
+    while t >= 0:
+        if bench.rows.flags[t] & (FLAG_ACTION | FLAG_CONDITION | FLAG_EFFECT):
+            return True
+        if bench.object_of(t) in bench.late_objects:
+            return False
+        t = bench.rows.parent[t]
+    return False
 
 
 def free_at(bench: Workbench, t: int, current: int, tick: int) -> float:

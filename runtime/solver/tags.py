@@ -19,7 +19,9 @@ MANAGER_NAMES = ("ThreatManager", "OpenConditionManager", "UnboundVariableManage
     FILTER_INFINITE,
     FILTER_PARENT_NOT_ASSIGNED,
     FILTER_NOT_ASSIGNED,
-) = range(11)
+    FILTER_GOALS,
+    FILTER_NOT_GOALS,
+) = range(13)
 POLICY_PARTIAL, POLICY_POSSIBLE, _POLICY_TOTAL = range(3)
 
 # ---- handlers ----

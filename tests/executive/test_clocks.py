@@ -149,6 +149,7 @@ def folder(tmp_path: Path) -> Path:
 
 def test_a_mission_file_and_an_agent_file_have_the_same_clocks(folder: Path) -> None:
     (folder / "c.xml").write_text('<Clock><tick value="3" count="12"/></Clock>')
+    (folder / "p.py").write_text("class P: ...\n")
     toml = (GPS / "mission.toml").read_text()
     logged = ClockConfiguration(counts=((3, 12),))
     for table, element, wanted in (
@@ -159,7 +160,7 @@ def test_a_mission_file_and_an_agent_file_have_the_same_clocks(folder: Path) -> 
     ):
         files = {
             "m.toml": f"{toml}\n[clock]\n{table}\n",
-            "a.xml": f'<Agent name="a" finalTick="9">{element}<PythonReactor name="p" code=":LogPlayer"/></Agent>',
+            "a.xml": f'<Agent name="a" finalTick="9">{element}<PythonReactor name="p" code="p.py:P"/></Agent>',
         }
         for name, text in files.items():
             mission, found = parse_mission(Source(name, text), folder)

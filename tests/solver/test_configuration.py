@@ -7,10 +7,12 @@ from textwrap import dedent
 import pytest
 
 from nddl_lang.text.source import Source
+from runtime.plan.tags import ACTIVE
 from runtime.solver.configuration.configuration import Configuration, FlawFilter, Match, default_configuration
 from runtime.solver.configuration.limits import Limits, model_limits
 from runtime.solver.configuration.read import read_configuration
-from tests.solver.planning import loaded
+from runtime.solver.configuration.read_toml import is_solver_text
+from tests.solver.planning import loaded, solver_for
 
 MANUAL = Path(__file__).resolve().parent.parent.parent / "docs" / "plan.md"
 
@@ -84,6 +86,40 @@ def test_xml_says_managers_filters_and_handlers_in_order() -> None:
 
 def test_toml_says_the_same_as_xml() -> None:
     assert read_well("s.toml", SAME_AS_TOML) == read_well("s.xml", SAMPLE)
+
+
+TREX = """<?xml version="1.0"?>
+<!-- as T-REX's reactors have it -->
+<Solver name="plan">
+  <ThreatManager defaultPriority="10"><FlawHandler component="TrexThreatHandler"/></ThreatManager>
+  <OpenConditionManager component="EarliestFirst" defaultPriority="{goals}">
+    <FlawFilter component="notGoals"/> <FlawHandler component="TrexOpenConditionHandler"/>
+  </OpenConditionManager>
+  <OpenConditionManager defaultPriority="100">
+    <FlawFilter component="goals"/> <FlawHandler component="TrexOpenConditionHandler"/>
+  </OpenConditionManager>
+</Solver>
+"""
+
+
+@pytest.mark.parametrize(("priority", "first"), [(40, "B.Goal"), (400, "B.Must")])
+def test_filters_of_trex_leave_out_goals_that_may_be_rejected_or_all_others(
+    tmp_path: Path, priority: int, first: str
+) -> None:
+    text = "class B extends Timeline { predicate Goal { } predicate Must { } }\nB b = new B();\n"
+    text += "goal(B.Must must);\nrejectable(B.Goal one);\nclose();\n"
+    how = read_well("s.xml", TREX.format(goals=priority))
+    solver = solver_for(tmp_path, text, how=how)
+    assert solver.solve(1, 2**60) != 0
+    names = [predicate.name for predicate in solver.database.program.predicates]
+    active = [names[solver.plan.rows.predicate[t]] for t in (0, 1) if solver.plan.rows.status[t] == ACTIVE]
+    assert active == [first]
+
+
+@pytest.mark.parametrize(("name", "text"), [("s.xml", TREX), ("s.cfg", TREX), ("s.toml", SAME_AS_TOML)])
+def test_a_configuration_is_known_by_its_text(name: str, text: str) -> None:
+    assert is_solver_text(name, text)
+    assert not is_solver_text(name, '<Agent name="a"><EuropaReactor plan_cfg="Solver"/></Agent>')
 
 
 def test_the_example_in_the_manual_is_well_formed() -> None:

@@ -28,6 +28,7 @@ export function makeClient(): LanguageClient {
       { scheme: "file", pattern: "**/*solver*.toml" },
       { scheme: "file", pattern: "**/nddlc.toml" },
       { scheme: "file", language: "xml" },
+      { scheme: "file", pattern: "**/*.cfg" },
     ],
     initializationOptions: {
       includeDirectories: settings.get<string[]>("includeDirectories", []).map(withFolder),

@@ -10,12 +10,14 @@ from compiler.program import FIRST_PARAMETER, OBJECT, START, STATE, TOKEN_VARIAB
 from runtime.solver.configuration.configuration import Configuration, FlawHandler, Match
 from runtime.solver.configuration.words import FILTERS, POLICIES, STANDARD
 from runtime.solver.tags import (
+    FILTER_GOALS,
     FILTER_GUARD,
     FILTER_HORIZON,
     FILTER_HORIZON_VARIABLE,
     FILTER_INFINITE,
     FILTER_LOCAL,
     FILTER_NOT_ASSIGNED,
+    FILTER_NOT_GOALS,
     FILTER_NOT_GUARD,
     FILTER_NOT_SINGLETON,
     FILTER_PARAMETER,
@@ -25,6 +27,7 @@ from runtime.solver.tags import (
     NONE,
 )
 
+_GOAL_FILTERS = (FILTER_GOALS, FILTER_NOT_GOALS)
 _TOKEN_FILTERS = (FILTER_HORIZON, FILTER_PARENT_NOT_ASSIGNED)
 _VARIABLE_FILTERS = (
     FILTER_HORIZON,
@@ -41,12 +44,14 @@ _SIMILAR_RELATIONS = {"before": ("before", "meets"), "after": ("after", "met_by"
 
 @dataclass(frozen=True, slots=True)
 class TokenKind:
-    """What a configuration can match of a token before search: full predicate names, relation, name."""
+    """What a configuration can match of a token before search: full predicate names, relation, name, whether it is a
+    goal that may be rejected."""
 
     predicate: str
     parent_predicate: str | None = None
     relation: str | None = None
     name: str = ""
+    is_rejectable: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,9 +90,11 @@ class HandlerMatching:
 
     @property
     def is_by_predicate(self) -> bool:
-        """Whether no filter or handler matches the parent of a token, or its name."""
-        matches = [one.match for manager in self.managers for one in manager.filters]
-        matches += [*(one.match for one in self.filters), *(one.match for one in self.handlers)]
+        """Whether no filter or handler matches the parent of a token, its name, or whether it is a goal."""
+        filters = (*self.filters, *(one for manager in self.managers for one in manager.filters))
+        if any(FILTERS[one.component] in _GOAL_FILTERS for one in filters):
+            return False
+        matches = [*(one.match for one in filters), *(one.match for one in self.handlers)]
         if any(match.parent_class or match.parent_predicate or match.parent_relation for match in matches):
             return False
         return all(match.token_name is None for match in matches)
@@ -145,6 +152,8 @@ class HandlerMatching:
             if not self._fits(one.match, token, owner, variable):
                 continue
             code = FILTERS[one.component]
+            if code in _GOAL_FILTERS and token is not None and token.is_rejectable is (code == FILTER_GOALS):
+                return None
             if code == FILTER_STATIC or (code in (FILTER_LOCAL, FILTER_PARAMETER) and code in tested):
                 return None
             if code in tested:

@@ -19,7 +19,7 @@ cdef class HandlerTable:
     cdef public double[::1] handler_priority, heap_priority
 
     cpdef long long token_kind(
-        self, long long predicate, long long parent, long long relation, long long label
+        self, long long predicate, long long parent, long long relation, long long label, bint rejectable
     ) except? -1
 
     @cython.locals(at="long long")

@@ -54,7 +54,7 @@ class HandlerTable:
         self.handler_of = array("q")
         self.heap_of = array("q")
         self.rows: dict[tuple[int, HandlerRow], int] = {}
-        self.kinds: dict[tuple[int, int, int, int], int] = {}
+        self.kinds: dict[tuple[int, int, int, int, bool], int] = {}
         self.kind_texts: list[TokenKind] = []
         self.kind_of_predicate = array("q", [NONE] * max(len(self.program.predicates), 1))
         self.token_rows = array("q", [_UNKNOWN]) * (8 * self.managers)  # by kind and manager
@@ -125,14 +125,14 @@ class HandlerTable:
         self.rows[(manager, found)] = row
         return row
 
-    def token_kind(self, predicate: int, parent: int, relation: int, label: int) -> int:
+    def token_kind(self, predicate: int, parent: int, relation: int, label: int, rejectable: bool) -> int:
         """The number of a kind of token; `parent` is a predicate; NONE stands for what there is not."""
         if self.by_predicate:
             if self.kind_of_predicate[predicate] == NONE:
                 self.kind_of_predicate[predicate] = len(self.kind_texts)
                 self.kind_texts.append(TokenKind(self.program.predicates[predicate].name))
             return self.kind_of_predicate[predicate]
-        key = (predicate, parent, relation, label)
+        key = (predicate, parent, relation, label, rejectable)
         kind = self.kinds.get(key)
         if kind is None:
             kind = len(self.kind_texts)
@@ -144,6 +144,7 @@ class HandlerTable:
                     self.program.predicates[parent].name if parent >= 0 else None,
                     database.relation_names[relation] if relation >= 0 else None,
                     database.names.text(label) if label >= 0 else "",
+                    rejectable,
                 )
             )
         return kind

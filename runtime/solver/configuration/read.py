@@ -31,6 +31,7 @@ from runtime.solver.configuration.words import (
     HANDLERS,
     ITERATIONS,
     KEEPS,
+    MANAGERS,
     PAIR_ORDERS,
     POLICIES,
     RESOURCE_ORDERS,
@@ -90,6 +91,7 @@ class _Reading:
     def manager(self, element: Element) -> FlawManager:
         named = element.find("component")
         component = named.value if named else element.tag
+        component = MANAGERS.get(component, component)
         kind = MANAGER_NAMES.index(component) if component in MANAGER_NAMES else NONE
         known = {"component", "label", "defaultPriority"} | ({"order"} if kind == RESOURCE_THREAT else set())
         if component:

@@ -11,6 +11,7 @@ from nddl_lang.text.toml_slips import not_toml
 from nddl_lang.text.values import toml_value
 from runtime.solver.configuration.codes import NOT_READABLE, UNKNOWN_ELEMENT
 from runtime.solver.configuration.element import Attribute, Element, stretch
+from runtime.solver.configuration.read_xml import is_solver_xml
 
 _Table = dict[str, object]
 _TABLE = re.compile(r"^[ \t]*\[\[?[ \t]*(?:manager|filter)\b", re.MULTILINE)
@@ -28,6 +29,11 @@ def read_toml(source: Source) -> tuple[Element | None, list[Diagnostic]]:
 def is_solver_toml(text: str) -> bool:
     """Whether a text in TOML, well-formed or not, configures a solver: its tables are managers or filters."""
     return _TABLE.search(text) is not None
+
+
+def is_solver_text(name: str, text: str) -> bool:
+    """Whether the text of a file, well-formed or not, configures a solver."""
+    return is_solver_toml(text) if name.endswith(".toml") else is_solver_xml(text)
 
 
 class _Converter:

@@ -10,6 +10,8 @@ from nddl_lang.text.source import Source
 from runtime.solver.configuration.codes import FORBIDDEN_DOCTYPE, NOT_READABLE
 from runtime.solver.configuration.element import Attribute, Element, stretch
 
+_ROOT = re.compile(r"\A\s*(?:<\?.*?\?>\s*|<!--.*?-->\s*)*<Solver\b", re.DOTALL)
+
 
 class _DoctypeFoundError(Exception):
     """The text declares a document type: entities could follow, so nothing more is read."""
@@ -60,6 +62,11 @@ class _Reader:
 
     def refuse_doctype(self, *_declaration: object) -> None:
         raise _DoctypeFoundError
+
+
+def is_solver_xml(text: str) -> bool:
+    """Whether a text in XML, well-formed or not, configures a solver: its root says so."""
+    return _ROOT.search(text) is not None
 
 
 def read_xml(source: Source) -> tuple[Element | None, list[Diagnostic]]:

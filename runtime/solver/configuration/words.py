@@ -1,12 +1,14 @@
 """Words of a configuration and their codes; of the tuples the index is the code, and the first word the default."""
 
 from runtime.solver.tags import (
+    FILTER_GOALS,
     FILTER_GUARD,
     FILTER_HORIZON,
     FILTER_HORIZON_VARIABLE,
     FILTER_INFINITE,
     FILTER_LOCAL,
     FILTER_NOT_ASSIGNED,
+    FILTER_NOT_GOALS,
     FILTER_NOT_GUARD,
     FILTER_NOT_SINGLETON,
     FILTER_PARAMETER,
@@ -41,6 +43,8 @@ FILTERS = {
     "MasterMustBeInsertedFilter": FILTER_PARENT_NOT_ASSIGNED,
     "TokenMustBeAssignedFilter": FILTER_NOT_ASSIGNED,
     "ParentMustBeInsertedFilter": FILTER_NOT_ASSIGNED,
+    "goals": FILTER_GOALS,  # this and the next are T-REX's: each leaves out what it names
+    "notGoals": FILTER_NOT_GOALS,
 }
 HANDLERS = {  # the kind of flaw that each mends, and its code; the first of a kind is its default
     "StandardVariableHandler": (UNBOUND_VARIABLE, HANDLER_MIN),
@@ -55,7 +59,10 @@ HANDLERS = {  # the kind of flaw that each mends, and its code; the first of a k
     "StandardThreatHandler": (THREAT, HANDLER_THREAT),
     "HSTSThreatDecisionPoint": (THREAT, HANDLER_HSTS_THREAT),
     "ResourceThreatHandler": (RESOURCE_THREAT, HANDLER_RESOURCE),
+    "TrexOpenConditionHandler": (OPEN_CONDITION, HANDLER_SUPPORT),  # what these two add to the standard ones, that
+    "TrexThreatHandler": (THREAT, HANDLER_THREAT),  # nothing is planned for the past, holds for every reactor here
 }
+MANAGERS = {"EarliestFirst": "OpenConditionManager"}  # other names: T-REX's takes the earliest start first
 STANDARD = {kind: name for name, (kind, _) in reversed(HANDLERS.items())}
 POLICIES = ("PartiallyContained", "PossiblyContained", "TotallyContained")
 CHOICES = ("mergeFirst", "activateFirst", "mergeOnly", "activateOnly")

@@ -8,7 +8,7 @@ from runtime.plan.store.rows cimport Rows
 from runtime.solver.configuration.handler_table cimport HandlerTable
 from runtime.solver.flaws.agenda cimport Agenda
 
-cdef long long ACTIVE, BRANCH_WAITING, END, FLAG_EFFECT, INACTIVE, _LAST_BIT, LISTS, LIST_ORDER, NONE, NO_KEY, _ONE
+cdef long long ACTIVE, BRANCH_WAITING, END, FLAG_EFFECT, FLAG_REJECTABLE, INACTIVE, _LAST_BIT, LISTS, LIST_ORDER, NONE, NO_KEY, _ONE
 cdef long long OPEN_CONDITION, ROLE_GLOBAL, ROLE_INTERNAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START, THREAT
 cdef long long TRAIL_CONSTRAINT, TRAIL_EDGE
 cdef long long TRAIL_NARROWING, TRAIL_RESTRICTION, TRAIL_VARIABLE, UNBOUND_VARIABLE, UNDO_LINK

@@ -15,6 +15,7 @@ from runtime.plan.tags import (
     BRANCH_WAITING,
     END,
     FLAG_EFFECT,
+    FLAG_REJECTABLE,
     INACTIVE,
     LIST_ORDER,
     LISTS,
@@ -205,11 +206,12 @@ def _update_domain(agenda: Agenda, v: int) -> int:
 
 
 def _kind_of(agenda: Agenda, t: int) -> int:
-    """The kind of a token by predicate, parent, relation and name."""
+    """The kind of a token by predicate, parent, relation, name, and whether it may be rejected."""
     rows = agenda.rows
     parent = rows.parent[t]
     asker = rows.predicate[parent] if parent >= 0 else NONE
-    return agenda.table.token_kind(rows.predicate[t], asker, rows.relation[t], rows.label[t])
+    rejectable = rows.flags[t] & FLAG_REJECTABLE != 0
+    return agenda.table.token_kind(rows.predicate[t], asker, rows.relation[t], rows.label[t], rejectable)
 
 
 def _add_threat(agenda: Agenda, t: int) -> None:
