@@ -99,7 +99,7 @@ def _undecided_path(part: Part, path: PathExpr, sampled: set[object]) -> Iterato
     if isinstance(reference, LocalReference) and reference.variable.type.kind in (Kind.INT, Kind.FLOAT):
         variable = reference.variable
         if not is_finite(variable.type, declared(variable)) and not _is_sampled(part, variable, sampled):
-            help_ = "a condition waits until its variables are decided, and a search decides only those with few values"
+            help_ = "that constraints leave one value decides nothing; a search decides it once few values are left"
             yield NEVER_DECIDED.at(path.span, help=help_, name=variable.name)
     elif isinstance(reference, MemberReference) and part.dialect is Dialect.NDDL3:
         base = reference.base

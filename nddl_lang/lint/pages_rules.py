@@ -47,8 +47,9 @@ RULE_LINT_PAGES = (
     RulePage(
         NEVER_DECIDED,
         "A condition asks for a local number that is only narrowed by constraints.",
-        "A condition waits until each of its variables is decided. A search decides only variables with finitely "
-        "many values; that constraints leave a single value does not count.",
+        "A condition waits until each of its variables is decided. That constraints leave a single value does not "
+        "count: a search decides the variable, and only once finitely many values are left. So what stands in the "
+        "condition comes late, and never where nothing bounds the variable.",
         _GAUGE + "Gauge::shown { int twice; twice == level * 2; if (twice == 4) { meets(dark); } }\n",
         _GAUGE + "Gauge::shown { if (level == 2) { meets(dark); } }\n",
     ),
