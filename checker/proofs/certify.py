@@ -18,7 +18,7 @@ from checker.losses import Limits, losses_of
 from checker.names import relative_name
 from checker.proofs.box import Box, Point, box_of
 from checker.proofs.claims import Claim, Number
-from checker.proofs.dating import Dated, Requirement, dated
+from checker.proofs.dating import Dated, dated
 from checker.proofs.intervals import Ranges
 from checker.proofs.operands import decimal, rational
 from checker.proofs.solving import fraction
@@ -201,17 +201,16 @@ class Certifier:
     def _is_still_broken(self, point: Point) -> bool:
         """Whether a point breaks a condition of each structure, in exact arithmetic."""
         return all(
-            any(not self._holds(condition, structure, point) for condition in found.conditions)
+            self._breaks([condition.claim for condition in found.conditions], structure, point)
             for structure, found in zip(self.structures, self.dated, strict=True)
         )
 
-    def _holds(self, condition: Requirement, structure: Structure, point: Point) -> bool:
-        pairs = [
-            (z3.Real(name), rational(point[parameter]))
-            for parameter, names in structure.draws.items()
-            for name in names
-        ]
-        return bool(z3.is_true(z3.simplify(z3.substitute(condition.claim, *pairs))))
+    def _breaks(self, claims: Sequence[Claim], structure: Structure, point: Point) -> bool:
+        """Whether a point breaks some claim of a structure; z3 is asked only where intervals of one value do not tell."""
+        drawn = {name: point[parameter] for parameter, names in structure.draws.items() for name in names}
+        doubtful = self._doubtful(claims, Ranges({name: (decimal(value),) * 2 for name, value in drawn.items()}))
+        pairs = [(z3.Real(name), rational(value)) for name, value in drawn.items()] if doubtful else []
+        return any(not z3.is_true(z3.simplify(z3.substitute(each, *pairs))) for each in doubtful)
 
     def broken(
         self,
