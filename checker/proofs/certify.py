@@ -18,7 +18,7 @@ from checker.losses import Limits, losses_of
 from checker.names import relative_name
 from checker.proofs.box import Box, Point, box_of
 from checker.proofs.claims import Claim, Number
-from checker.proofs.dating import Dated, dated
+from checker.proofs.dating import Dated, Requirement, dated
 from checker.proofs.intervals import Ranges
 from checker.proofs.operands import decimal, rational
 from checker.proofs.solving import fraction
@@ -201,16 +201,22 @@ class Certifier:
     def _is_still_broken(self, point: Point) -> bool:
         """Whether a point breaks a condition of each structure, in exact arithmetic."""
         return all(
-            self._breaks([condition.claim for condition in found.conditions], structure, point)
+            any(self._broken_by(found.conditions, structure, point))
             for structure, found in zip(self.structures, self.dated, strict=True)
         )
 
-    def _breaks(self, claims: Sequence[Claim], structure: Structure, point: Point) -> bool:
-        """Whether a point breaks some claim of a structure; z3 is asked only where intervals of one value do not tell."""
+    def _broken_by(
+        self, conditions: Sequence[Requirement], structure: Structure, point: Point
+    ) -> Iterator[Requirement]:
+        """The conditions of a structure that a point breaks; z3 is asked only where ranges of one value do not tell."""
         drawn = {name: point[parameter] for parameter, names in structure.draws.items() for name in names}
-        doubtful = self._doubtful(claims, Ranges({name: (decimal(value),) * 2 for name, value in drawn.items()}))
-        pairs = [(z3.Real(name), rational(value)) for name, value in drawn.items()] if doubtful else []
-        return any(not z3.is_true(z3.simplify(z3.substitute(each, *pairs))) for each in doubtful)
+        ranges = Ranges({name: (decimal(value),) * 2 for name, value in drawn.items()})
+        pairs: list[tuple[Number, Number]] = []
+        for one in conditions:
+            if not ranges.holds(one.claim):
+                pairs = pairs or [(z3.Real(name), rational(value)) for name, value in drawn.items()]
+                if not z3.is_true(z3.simplify(z3.substitute(one.claim, *pairs))):
+                    yield one
 
     def broken(
         self,
@@ -332,13 +338,8 @@ class Certifier:
         """The lines that a point breaks, in the structure that it breaks least."""
         best: list[Span] | None = None
         for structure, found in zip(self.structures, self.dated, strict=True):
-            broken = [
-                each.demand.span
-                for each in found.conditions
-                if each.demand.span is not None
-                and not each.demand.is_structure
-                and not self._holds(each, structure, point)
-            ]
+            told = [one for one in found.conditions if one.demand.span is not None and not one.demand.is_structure]
+            broken = [one.demand.span for one in self._broken_by(told, structure, point) if one.demand.span is not None]
             if best is None or len(broken) < len(best):
                 best = broken
         return tuple(dict.fromkeys(best or ()))
