@@ -22,7 +22,7 @@ from checker.broken_plans import broken_plan, usual_breaking
 from checker.buckets import Key, bucket_key
 from checker.conditions.record import Conditions
 from checker.contrast import Contrast, Trace, find_contrast, nearest_passing
-from checker.counterfactual.effort import Bounds
+from checker.counterfactual.effort import Allowance, Bounds
 from checker.counterfactual.ranking import Causes
 from checker.counterfactual.search import CauseSearch, Suspended
 from checker.coverage import branches_taken
@@ -169,12 +169,11 @@ class Campaign:
         Unless it `tests_conditions`: they come of the results alone then, and flights are made for causes only.
 
         Lines that may be the cause of a fault are tried within `bounds`, for all faults together no longer than
-        `seconds`. With a `focus` all that is done only for the fault that mission `focus` belongs to. `conditions`
-        and `causes` are known already, by example, or all that was `sought` before. `let` carries out each search, and
-        ends it where a signal comes.
+        `seconds`, and conditions, one after the other, begun within as many. With a `focus` that is done only for the
+        fault of mission `focus`. `conditions` and `causes` are known already, by example, or all that was `sought`
+        before. `let` carries out each search, and ends it where a signal comes.
         """
-        run, agent = self.run, self.models.agent
-        is_flying = may_fly and ending is not Ending.SIGNAL
+        run, agent, is_flying = self.run, self.models.agent, may_fly and ending is not Ending.SIGNAL
         points = {result.number: result.point for result in results}
         with Flyer(self.load, agent, self.mission.check.time_limit, progress) as flyer:
 
@@ -200,6 +199,7 @@ class Campaign:
                 sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),
                 seeker=self._seeker(flyer, bounds, seconds) if is_flying and bounds is not None else None,
                 let=let,
+                has_time=Allowance(seconds, lambda: flyer.processor_seconds),
             )
             if findings.is_cut:
                 flyer.dismiss()  # it may be in the middle of a flight

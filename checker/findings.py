@@ -1,6 +1,6 @@
 """All missions of a run in, what there is to say about it out: the rate, and each fault with its line and condition."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
@@ -150,13 +150,14 @@ def assess(
     text: ModelText | None = None,
     cases: tuple[FlownCase, ...] = (),
     let: Interruptible = uninterrupted,
+    has_time: Callable[[], bool] = lambda: True,
 ) -> Findings:
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
     With a `focus` it does so only for the fault that mission `focus` belongs to. So does `seeker`, which finds causes;
     without a focus, buckets of one cause become one fault. `conditions` and `causes` are known already, or all
     that was `sought` before; `text` is what z3 reads the meaning of lines from. `let` carries out each search, and ends
-    it where a signal comes.
+    it where a signal comes. Flights are made for the condition of a fault only if it `has_time`.
     """
     by_number = sorted(results, key=lambda result: result.number)
     ordered = tuple(result for result in by_number if result.number > 0)
@@ -189,7 +190,7 @@ def assess(
             most_weight=sampling.most_weight,
             is_sequential=sampling.is_sequential,
         )
-        flier = refly if is_wanted else None
+        flier = refly if is_wanted and has_time() else None
         asked = None if focus is None or is_wanted else Fault(bucket, None, None)  # nobody asks for this one
         fault = asked or let(partial(_fault, bucket, ordered, agent, seed, flier, conditions or {}, text))
         fault = Fault(bucket, None, None, is_cut=True) if fault is None else fault

@@ -44,6 +44,20 @@ class Bounds:
         return replace(self, flights=self.flights + self.further, further=0)
 
 
+class Allowance:
+    """Whether there still is processor time, or five times as much by the clock, since that was asked for first."""
+
+    def __init__(self, seconds: float, spent: Callable[[], float]) -> None:
+        self._seconds, self._spent = seconds, spent
+        self._watch: Stopwatch | None = None
+
+    def __call__(self) -> bool:
+        if self._watch is None:
+            self._watch = Stopwatch(self._spent)
+            return True
+        return not (self._watch.is_over(self._seconds) or self._watch.is_starved(self._seconds))
+
+
 class Stopwatch:
     """Processor time and time by the clock since it was made."""
 

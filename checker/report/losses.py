@@ -1,5 +1,7 @@
 """What a batch cost, in words and as data: goals lost, plans repaired, requests not met."""
 
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from checker.batch.result import MissionResult
@@ -9,6 +11,7 @@ from checker.losses import GoalFate
 from checker.rendering import kind_text
 from checker.report.sentences import counted, missions
 from checker.tally import GoalTally, RepairTally, Tally, UnmetTally
+from runtime.executive.outcome import Reason
 from runtime.executive.rendering import reason_text
 
 _MOST_LINES = 4
@@ -61,10 +64,28 @@ def damage_words(tally: Tally) -> str:
 
 def goal_text(goal: GoalTally, excerpts: Excerpts) -> str:
     """A goal that was given up: which, where it is written, how often, and why."""
-    reasons = ", ".join(f"{count} × {reason_text(reason)}" for reason, count in goal.reasons)
+    reasons = ", ".join(
+        f"{count} × {reason_text(reason)}{' (and the like)' if are_several else ''}"
+        for reason, count, are_several in _sorts(goal.reasons)
+    )
     kind = "mandatory" if goal.goal.mandatory else "optional"
     what = f"{goal.goal.predicate} on `{goal.goal.timeline}` ({kind})"
     return f"{what}, {excerpts.path(goal.place)}, in {missions(goal.given_up)}: {reasons}; first in {goal.example}"
+
+
+def _sorts(reasons: Sequence[tuple[Reason, int]]) -> list[tuple[Reason, int, bool]]:
+    """Reasons by sort, whatever ticks and numbers of tokens: the first, how often, and whether there are several."""
+    groups: dict[Reason, list[tuple[Reason, int]]] = {}
+    for reason, count in reasons:
+        groups.setdefault(_sort_of(reason), []).append((reason, count))
+    found = [(each[0][0], sum(count for _, count in each), len(each) > 1) for each in groups.values()]
+    return sorted(found, key=lambda one: -one[1])
+
+
+def _sort_of(reason: Reason) -> Reason:
+    token = None if reason.token is None else replace(reason.token, key=0)
+    repair = None if reason.repair is None else _sort_of(reason.repair)
+    return replace(reason, token=token, tick=None, repair=repair)
 
 
 def repair_text(repair: RepairTally, excerpts: Excerpts) -> str:

@@ -1,16 +1,21 @@
 """What missions lose on the way is in every report, and a limit on it fails a mission."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from checker.batch.result import MissionResult
+from checker.excerpts import Excerpts
 from checker.losses import GoalFate, Limit, amount, losses_of
-from checker.report.losses import unmet_text
-from checker.tally import UnmetTally
+from checker.report.losses import goal_text, unmet_text
+from checker.tally import GoalTally, UnmetTally
 from nddlc.main import run
-from runtime.executive.outcome import Event, EventKind, Outcome, Phase, Reason, ReasonKind
+from runtime.executive.configuration import GoalConfiguration
+from runtime.executive.outcome import Event, EventKind, Outcome, Phase, Reason, ReasonKind, SourcePlace
+from runtime.executive.rendering import reason_text
+from runtime.plan.readout.names import TokenName
 
 pytestmark = pytest.mark.once
 
@@ -152,6 +157,20 @@ def test_too_many_repairs_are_blamed_on_the_line_that_was_repaired(
     assert repaired
     assert all(one["verdict"] == "FAIL" for one in repaired)
     assert data["losses"]["by_repair"][0]["place"]["text"] == data["faults"][0]["place"]["text"]
+
+
+def test_reasons_that_differ_in_ticks_and_numbers_of_tokens_are_one_sort() -> None:
+    at = [Reason(ReasonKind.DID_NOT_START, TokenName("Drone.Follow", n), tick=900 + n) for n in (3, 8, 8, 5)]
+    other = replace(at[0], token=TokenName("Drone.Hover", 3))
+    goal = GoalTally(
+        GoalConfiguration("task", "Refill"),
+        SourcePlace("mission.toml", 7, 1, ""),
+        ((GoalFate.REJECTED, 9), (GoalFate.LATE, 0)),
+        ((at[0], 4), (other, 3), (at[1], 1), (at[3], 1)),
+        2,
+    )
+    text = goal_text(goal, Excerpts(Path()))
+    assert f"9 missions: 6 × {reason_text(at[0])} (and the like), 3 × {reason_text(other)}; first in 2" in text
 
 
 def test_what_happened_once_is_told_as_once() -> None:

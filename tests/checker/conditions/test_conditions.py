@@ -21,7 +21,7 @@ from checker.conditions.space import Range, Space
 from checker.oracle import Judgement, Verdict
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.outcome import Draw, Outcome
-from tests.checker.conditions.campaigns import RANGES, campaign, conditions
+from tests.checker.conditions.campaigns import RANGES, campaign, conditions, flown
 
 pytestmark = pytest.mark.once
 
@@ -120,6 +120,16 @@ def test_a_failure_in_a_thousand_is_found_from_one_example(tmp_path: Path) -> No
 def test_two_faults_have_two_conditions(tmp_path: Path) -> None:
     found = conditions(campaign(tmp_path, "p <= 0.8;\n    q >= 0.25;"))
     assert sorted(condition_text(one) for one in found if one is not None) == ["P > 0.8", "Q < 0.25"]
+
+
+@pytest.mark.slow
+def test_once_the_time_is_over_no_flights_are_made_for_further_conditions(tmp_path: Path) -> None:
+    """Each takes hundreds of flights: with four faults of slow missions they took ten minutes."""
+    given = campaign(tmp_path, "p <= 0.8;\n    q >= 0.25;")
+    for seconds, flown_for in ((1e-6, 1), (60.0, 2)):
+        found = given.assess(flown(given), seconds=seconds)
+        assert [one.is_tested for one in found.faults].count(True) == flown_for
+        assert all(one.condition is not None for one in found.faults)
 
 
 @pytest.mark.slow
