@@ -1,5 +1,7 @@
 """`nddlc certify`: prove that no value in the box breaks a mission, or fly one that does."""
 
+from collections.abc import Callable
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +21,7 @@ from checker.proofs.rendering import certificate_data, certificate_lines, consta
 from nddl_lang.text.values import json_text
 from nddlc.inputs import Unusable, mission_here
 from nddlc.one_mission import prepare
+from nddlc.seeking import SeekingDisplay
 from nddlc.trust import trust_option
 from runtime.executive.outcome import Outcome
 from runtime.executive.record import MissionRecord
@@ -51,9 +54,10 @@ def command(
     _, mission, models = prepare(mission_here(path), is_trusted=is_trusted)
     excerpts = Excerpts(Path(models.agent.root))
     chosen = mission.check.seed if seed is None else seed
-    certifier = certifier_of(mission, models, chosen)
-    found = certifier.certify(corners=not no_corners, rules_only=rules_only)
-    told = [_bounded(name, certifier, mission, models, chosen, rules_only) for name in bounds]
+    with SeekingDisplay(done="flying and proving") as display:
+        certifier = certifier_of(mission, models, chosen, display)
+        found = certifier.certify(corners=not no_corners, rules_only=rules_only)
+        told = [_bounded(name, certifier, mission, models, chosen, rules_only) for name in bounds]
     if style == "json":
         data: dict[str, Any] = certificate_data(found, certifier.box, excerpts)
         data["bounds"] = [_bound_data(*each, excerpts) for each in told]
@@ -73,12 +77,16 @@ def command(
 _Bound = tuple[str, SafeConstant | None, tuple[Any, ...], Certificate | None]
 
 
-def certifier_of(mission: Mission, models: ModelSet, seed: int) -> Certifier:
-    """What certifies a mission, with missions flown in this process."""
+def certifier_of(
+    mission: Mission, models: ModelSet, seed: int, progress: Callable[[int], None] = lambda flights: None
+) -> Certifier:
+    """What certifies a mission, with missions flown in this process; `progress` is told how many."""
     agent, limits = models.agent, mission.check.limits
     flown = pinned(models).programs_of(agent)
+    flights = count()
 
     def fly(point: Point) -> tuple[Outcome, MissionRecord, bool]:
+        progress(next(flights))
         outcome, record = fly_recorded(agent, flown, seed, point)
         return outcome, record, judge_within(outcome, limits).verdict is Verdict.PASS
 

@@ -16,9 +16,11 @@ class SeekingDisplay:
     """A call shows how many flights were made to find out why missions fail, unless that was done just now.
 
     Causes are sought for `most` seconds, where that is said; for conditions no flights are made with `--no-conditions`.
+    What is `done` may be something else.
     """
 
-    def __init__(self, most: float | None = None) -> None:
+    def __init__(self, most: float | None = None, done: str = "seeking causes and conditions") -> None:
+        self._done = done
         self._is_terminal = sys.stderr.isatty()
         self._begun = self._shown = time.monotonic()
         self._most = "" if most is None else f" (causes: at most {most:.0f} s)"
@@ -36,7 +38,7 @@ class SeekingDisplay:
         if now - self._shown < (BAR_SECONDS if self._is_terminal else LINE_SECONDS):
             return
         self._shown, self._is_shown = now, True
-        text = f"seeking causes and conditions: {flights} flights in {now - self._begun:.0f} s"
+        text = f"{self._done}: {flights} flights in {now - self._begun:.0f} s"
         is_long = self._most and now - self._begun > _PATIENCE
         hint = " (quicker: --no-conditions)" if is_long else self._most
         if len(text + hint) < shutil.get_terminal_size().columns:

@@ -93,8 +93,8 @@ def shrunk_lines(found: ShrunkMission) -> list[str]:
     if shrunk.redrawn:
         lines.append(f"  as drawn from seed {shrunk.result.seed}: {', '.join(shrunk.redrawn)}")
     if found.goals:
-        kept = ", ".join(str(one + 1) for one in shrunk.goals) or "none"
-        lines.append(f"  goals of the mission file: {kept} of {found.goals}")
+        kept = " and ".join([f"number {one + 1}" for one in shrunk.goals]) or "none"
+        lines.append(f"  of the {found.goals} goals of the mission file: {kept}")
     lines.append(f"  final tick {shrunk.final_tick}")
     return lines
 

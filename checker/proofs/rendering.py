@@ -162,9 +162,15 @@ def control_lines(name: str, plan: PlanNetwork, answer: Answer, excerpts: Excerp
     else:
         said = "dynamically controllable" if cycle is None else "not dynamically controllable"
         lines = [f"{name}, plan of {plan.reactor}: {said}; {_static(answer.is_strong, answer.is_weak)}"]
-    lines.append("  the vehicle decides:" if not answer.is_reckoned else "  others decide, at most as the lines tell:")
-    lines += [f"    {_taken(each)}{_shown(each) if answer.is_reckoned else ''}" for each in plan.durations]
+    open_ones = [each for each in plan.durations if each.lower < each.upper]
+    if open_ones or plan.endless:
+        lines.append(
+            "  the vehicle decides:" if not answer.is_reckoned else "  others decide, at most as the lines tell:"
+        )
+    lines += [f"    {_taken(each)}{_shown(each) if answer.is_reckoned else ''}" for each in open_ones]
     lines += [f"    {each}: for how long is not known" for each in plan.endless]
+    if exact := [_taken(each) for each in plan.durations if each.lower == each.upper]:
+        lines.append(f"  the same for all values: {', '.join(exact)}")
     if plan.left_out:
         lines.append(f"  {plan.left_out} demands are no distances between times, and are left out")
     if cycle is not None:
@@ -185,8 +191,8 @@ def control_lines(name: str, plan: PlanNetwork, answer: Answer, excerpts: Excerp
 
 
 def _taken(each: VehicleDuration) -> str:
-    after = f"ends {each.lower} to {each.upper} after the end of {each.after}"
-    return f"{each.token} {after if each.after else f'takes {each.lower} to {each.upper}'}"
+    taken = f"{each.lower} to {each.upper}" if each.lower < each.upper else f"{each.lower}"
+    return f"{each.token} ends {taken} after the end of {each.after}" if each.after else f"{each.token} takes {taken}"
 
 
 def _shown(each: VehicleDuration) -> str:
