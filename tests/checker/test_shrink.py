@@ -12,9 +12,16 @@ from checker.batch.result import MissionResult
 from checker.conditions.space import Space
 from checker.contrast import SubsetSearch, find_contrast
 from checker.oracle import Judgement, Verdict
-from checker.regression import RegressionCase, RegressionError, cases_text, read_cases
+from checker.regression import RegressionCase, RegressionError, agent_of, cases_text, read_cases
 from nddlc.main import run
-from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+from runtime.executive.configuration import (
+    AgentConfiguration,
+    GoalConfiguration,
+    ParameterConfiguration,
+    PropertyConfiguration,
+    PropertyKind,
+    TokenPattern,
+)
 from runtime.executive.outcome import Abort, Draw, Outcome, Reason, ReasonKind
 from tests.checker.conditions.campaigns import campaign, flown
 
@@ -174,6 +181,20 @@ def test_a_promoted_mission_is_flown_first_until_it_passes(
     model.write_text(model.read_text().replace("r >= 2.0", "r >= -2.0"))
     assert run(["check", "mission.toml", "--flights", "2", "--missions", "2"]) == 0
     assert "flown first: none of them fails any more" in capsys.readouterr().out
+
+
+def test_what_only_a_goal_that_was_left_out_brings_about_is_not_asked_of_a_case() -> None:
+    """A case of one goal failed for ever by a property that another goal fulfils, mended or not."""
+    properties = tuple(
+        PropertyConfiguration(kind.value, kind, TokenPattern("arm"))
+        for kind in (PropertyKind.REACHED, PropertyKind.NEVER)
+    )
+    goals = (GoalConfiguration("task", "Do"), GoalConfiguration("task", "Rest"))
+    agent = AgentConfiguration("a", "", 9, (), goals, properties=properties)
+    every = ["reached", "never"]
+    for was, numbers, kept in (("F1", (1,), ["never"]), ("F1", (0, 1), every), ("P1: it", (1,), every)):
+        flown = agent_of(RegressionCase("c", 1, was, goals=numbers), agent)
+        assert [one.name for one in flown.properties] == kept
 
 
 def test_cases_are_read_as_they_were_written(tmp_path: Path) -> None:
