@@ -150,6 +150,10 @@ class Documents:
         """What is wrong with a file now."""
         return self._published.get(uri, ())
 
+    def shown_uris(self) -> set[str]:
+        """The files of open models with which something is wrong, or was before an error took the findings back."""
+        return {each.uri for shown in self._shown.values() for each in shown.values()}
+
     def complained(self) -> list[str]:
         """The files with which something is wrong."""
         return list(self._published)

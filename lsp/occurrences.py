@@ -104,18 +104,35 @@ class Occurrence:
     kind: VariableKind | None = None
 
 
+class _InStatement:
+    """The occurrences in one statement in order of execution, and by the piece of text that they stand in."""
+
+    __slots__ = ("by_anchor", "occurrences")
+
+    def __init__(self, occurrences: Iterable[Occurrence]) -> None:
+        self.occurrences = tuple(occurrences)
+        found: dict[Anchor, list[Occurrence]] = {}
+        for each in self.occurrences:
+            found.setdefault(each.span.anchor, []).append(each)
+        self.by_anchor = {anchor: _in_order(each) for anchor, each in found.items()}
+
+
+def _in_order(occurrences: Iterable[Occurrence]) -> list[Occurrence]:
+    return sorted(occurrences, key=lambda each: each.span.start)
+
+
 class NameIndex:
     """The occurrences of one analysis, statement by statement in the order of execution."""
 
-    def __init__(self, by_statement: Iterable[tuple[Occurrence, ...]]) -> None:
+    def __init__(self, by_statement: Iterable[_InStatement]) -> None:
         self._by_statement = tuple(by_statement)
 
     @cached_property
     def all(self) -> dict[Symbol, list[Occurrence]]:
         """The occurrences of each symbol in order of execution."""
         found: dict[Symbol, list[Occurrence]] = {}
-        for occurrences in self._by_statement:
-            for each in occurrences:
+        for statement in self._by_statement:
+            for each in statement.occurrences:
                 found.setdefault(each.symbol, []).append(each)
         return found
 
@@ -123,11 +140,10 @@ class NameIndex:
     def _by_anchor(self) -> dict[Anchor, list[Occurrence]]:
         """The occurrences of each top-level statement of a text, in the order of the text."""
         found: dict[Anchor, list[Occurrence]] = {}
-        for occurrences in self._by_statement:
-            for each in occurrences:
-                found.setdefault(each.span.anchor, []).append(each)
-        for occurrences_ in found.values():
-            occurrences_.sort(key=lambda each: each.span.start)
+        for statement in self._by_statement:
+            for anchor, occurrences in statement.by_anchor.items():
+                others = found.get(anchor)
+                found[anchor] = occurrences if others is None else _in_order((*others, *occurrences))
         return found
 
     def within(self, anchor: Anchor) -> list[Occurrence]:
@@ -154,15 +170,15 @@ class NameIndexer:
     """Indexes a model again and again while it is edited, each time only the statements that changed."""
 
     def __init__(self) -> None:
-        self._known: dict[SideTables, tuple[Occurrence, ...]] = {}
+        self._known: dict[SideTables, _InStatement] = {}
 
     def index(self, analysis: Analysis) -> NameIndex:
         """The names of `analysis`."""
-        known: dict[SideTables, tuple[Occurrence, ...]] = {}
+        known: dict[SideTables, _InStatement] = {}
         for statement in analysis.statements:
             tables = analysis.by_statement[statement]
             found = self._known.get(tables)
-            known[tables] = found if found is not None else tuple(_occurrences(statement, tables))
+            known[tables] = found or _InStatement(_occurrences(statement, tables))
         self._known = known
         return NameIndex(known.values())
 

@@ -40,10 +40,14 @@ class Lines:
 
     def position(self, offset: int) -> Position:
         """The line and unit, both from 0, of the character at `offset`."""
+        return Position(*self.place(offset))
+
+    def place(self, offset: int) -> tuple[int, int]:
+        """The same, where no editor needs to read it."""
         offset = max(0, min(offset, len(self.text)))
         line = bisect_right(self.starts, offset) - 1
         start = self.starts[line]
-        return Position(line, offset - start if self._is_plain else self._units(self.text[start:offset]))
+        return line, offset - start if self._is_plain else self._units(self.text[start:offset])
 
     def range(self, begin: int, finish: int) -> Range:
         """The stretch from `begin` to `finish`."""

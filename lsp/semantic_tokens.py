@@ -49,6 +49,8 @@ _OF_VARIABLE = {VariableKind.MEMBER: "property", VariableKind.PARAMETER: "parame
 _OF_LEXEME = {"INT": "number", "FLOAT": "number", "STRING": "string", "BASETYPE": "type", "RELATION": "operator"}
 _TOKEN_WORDS = frozenset({"start", "end", "duration", "object", "state", "time"})
 
+_BLOCKS = (4096, 256, 16, 1)
+
 # Offset in the text, length, type and modifiers.
 _Token = tuple[int, int, int, int]
 
@@ -170,21 +172,21 @@ class TokenMemory:
         data: list[int] = []
         last_line = last_column = 0
         for piece in view.parse.pieces:
-            begin = lines.position(piece.anchor.offset)
+            line, column = lines.place(piece.anchor.offset)
             occurrences = view.snapshot.names.within(piece.anchor)
             packed = before.get(piece)
-            if packed is None or packed.column != begin.character or packed.occurrences != occurrences:
-                tokens = _pack(lines, _tokens(piece, occurrences), begin.line)
-                packed = _Packed(begin.character, occurrences, tokens[0], tokens[1] - begin.line, tokens[2])
+            if packed is None or packed.column != column or packed.occurrences != occurrences:
+                tokens = _pack(lines, _tokens(piece, occurrences), line)
+                packed = _Packed(column, occurrences, tokens[0], tokens[1] - line, tokens[2])
             now[piece] = packed
             if packed.data:
                 at = len(data)
                 data += packed.data
-                down = begin.line + packed.data[0] - last_line
+                down = line + packed.data[0] - last_line
                 data[at] = down
                 if down == 0:
                     data[at + 1] -= last_column
-                last_line, last_column = begin.line + packed.last_line, packed.last_column
+                last_line, last_column = line + packed.last_line, packed.last_column
         self._known[view.document.uri] = now
         return data
 
@@ -196,20 +198,18 @@ class TokenMemory:
         if known is None or known[0] != previous:
             return full
         old = known[1]
-        prefix = 0
         shorter = min(len(old), len(data))
-        # Whole blocks first: a text of 1000 lines has 40 000 numbers.
-        while prefix + 4096 <= shorter and old[prefix : prefix + 4096] == data[prefix : prefix + 4096]:
-            prefix += 4096
-        while prefix < shorter and old[prefix] == data[prefix]:
-            prefix += 1
-        suffix = 0
-        while prefix + suffix + 4096 <= shorter and (
-            old[len(old) - suffix - 4096 : len(old) - suffix] == data[len(data) - suffix - 4096 : len(data) - suffix]
-        ):
-            suffix += 4096
-        while prefix + suffix < shorter and old[-1 - suffix] == data[-1 - suffix]:
-            suffix += 1
+        prefix = suffix = 0
+        # Whole blocks first, then smaller ones: a text of 1000 lines has 40 000 numbers.
+        for size in _BLOCKS:
+            while prefix + size <= shorter and old[prefix : prefix + size] == data[prefix : prefix + size]:
+                prefix += size
+        for size in _BLOCKS:
+            while prefix + suffix + size <= shorter and (
+                old[len(old) - suffix - size : len(old) - suffix]
+                == data[len(data) - suffix - size : len(data) - suffix]
+            ):
+                suffix += size
         if prefix == len(old) == len(data):
             return SemanticTokensDelta([], full.result_id)
         edit = SemanticTokensEdit(prefix, len(old) - prefix - suffix, data[prefix : len(data) - suffix])

@@ -29,6 +29,7 @@ from lsp.open_text import DocumentContext, Publication
 from lsp.project import ServerSettings
 from lsp.pulled import PulledDiagnostics
 from lsp.semantic_tokens import TokenMemory
+from lsp.written_diagnostics import WrittenDiagnostics
 
 _logger = logging.getLogger(__name__)
 
@@ -60,28 +61,17 @@ class _Protocol(LanguageServerProtocol):
 
     def __init__(self, *arguments: Any) -> None:
         super().__init__(*arguments)
-        self._plain: dict[str, dict[int, tuple[types.Diagnostic, Any]]] = {}  # URI -> identity -> as it was sent
+        self.written = WrittenDiagnostics(self._serialize_message)
 
-    def _serialize_message(self, data: Any) -> dict[str, Any]:
-        """Write a message; complaints that were sent before are not converted again."""
-        if not isinstance(data, types.PublishDiagnosticsNotification):
-            return super()._serialize_message(data)
-        params = data.params
-        empty = types.PublishDiagnosticsParams(params.uri, (), params.version)
-        written = super()._serialize_message(types.PublishDiagnosticsNotification(empty))
-        if params.diagnostics:
-            before = self._plain.get(params.uri, {})
-            now = {
-                id(each): before.get(id(each)) or (each, self._converter.unstructure(each))
-                for each in params.diagnostics
-            }
-            # An error anywhere takes the findings back for a moment: what was sent is kept until more is.
-            if len(now) >= len(before):
-                self._plain[params.uri] = now
-            written["params"]["diagnostics"] = [now[id(each)][1] for each in params.diagnostics]
-        elif isinstance(self._server, Session) and self._server.documents.find(params.uri) is None:
-            self._plain.pop(params.uri, None)
-        return written
+    def _send_data(self, data: Any) -> None:
+        """Send a message; complaints that were sent before are not written again."""
+        if self.writer is None or not isinstance(data, types.PublishDiagnosticsNotification):
+            super()._send_data(data)
+            return
+        content = self.written.body(data).encode()
+        self.writer.write(
+            b"Content-Length: %d\r\n\r\n%b" % (len(content), content) if self._include_headers else content
+        )
 
     def structure_message(self, data: dict[str, Any]) -> Any:
         """Understand a message; whoever asks what cannot be understood is told so."""
@@ -179,6 +169,8 @@ class Session(LanguageServer):
                 self.text_document_publish_diagnostics(
                     types.PublishDiagnosticsParams(each.uri, each.diagnostics, each.version)
                 )
+            assert isinstance(self.protocol, _Protocol)
+            self.protocol.written.forget(self.documents.shown_uris())
         elif len(news) > 1 or any(each.version is None for each in news):
             support = self.client_capabilities.workspace
             if support is not None and support.diagnostics is not None and support.diagnostics.refresh_support:

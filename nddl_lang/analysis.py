@@ -14,7 +14,7 @@ from nddl_lang.semantics.codes import UNKNOWN_CLASS, UNKNOWN_NAME, UNKNOWN_TYPE
 from nddl_lang.semantics.schema import Schema, SideTables
 from nddl_lang.semantics.scope import Context, Deferred, names_in
 from nddl_lang.semantics.statement import check_statement
-from nddl_lang.semantics.symbol_table import ALL_NAMES, Entry, SymbolTable, declare_below, doubt, told
+from nddl_lang.semantics.symbol_table import ALL_NAMES, Entry, LeftBehind, SymbolTable, declare_below, doubt
 from nddl_lang.syntax.codes import MISSING_FILE, TOO_DEEP, TOO_LARGE, UNCLOSED_COMMENT, UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import LoadedModules, load_module_graph
@@ -83,7 +83,7 @@ class _Unit:
     """What became of one statement: what it looked at, left behind, and what was found out about it."""
 
     reads: dict[Entry, object]
-    writes: dict[Entry, object]
+    left: LeftBehind
     tables: SideTables
     complaints: tuple[Diagnostic, ...]
     deferred: tuple[Deferred, ...]
@@ -117,20 +117,31 @@ class Analyser:
         # What a look-up may find otherwise than before, at the statement at hand; all others get their old answers.
         changed = _differences(self._supposed, supposed)
         units: dict[Statement, _Unit] = {}
-        for index, statement in enumerate(statements):
-            if index == last:
-                changed |= _changed_by(gone, [units[each] for each in statements[first:last]])
-            unit = self._units.get(statement)
-            is_in_place = index < first or index >= last
-            if unit is not None and (
-                (is_in_place and unit.reads.keys().isdisjoint(changed)) or symbols.answers(unit.reads)
-            ):
-                symbols.replay(unit.writes)
+
+        def check(statement: Statement, unit: _Unit | None) -> None:
+            """Check a statement, or leave behind what it left, where it would get the same answers."""
+            if unit is not None and symbols.answers(unit.reads):
+                symbols.replay(unit.left)
+                units[statement] = unit
             else:
-                old = [unit] if unit is not None and is_in_place else []
-                unit = _check(symbols, statement, loaded.dialect, self._callables)
-                changed |= _changed_by(old, [unit]) if old else set()
-            units[statement] = unit
+                units[statement] = _check(symbols, statement, loaded.dialect, self._callables)
+
+        def keep(pairs: Iterable[tuple[Statement, _Unit]]) -> None:
+            """Leave behind what statements left that stand as they stood, unless what they looked up has changed."""
+            for statement, unit in pairs:
+                if not changed or unit.reads.keys().isdisjoint(changed):
+                    symbols.replay(unit.left)
+                    units[statement] = unit
+                else:
+                    check(statement, unit)
+                    if units[statement] is not unit:
+                        changed.update(_changed_by([unit], [units[statement]]))
+
+        keep(before[:first])
+        for statement in statements[first:last]:
+            check(statement, self._units.get(statement))
+        changed |= _changed_by(gone, [units[each] for each in statements[first:last]])
+        keep(before[len(before) - len(statements) + last :])
         self._units, self._supposed = units, supposed
         echoes = _Echoes(loaded)
         complaints: list[tuple[int, tuple[Diagnostic, ...]]] = []
@@ -173,8 +184,8 @@ def _replaced(old: Sequence[Statement], new: Sequence[Statement]) -> tuple[int, 
 
 def _changed_by(old: Iterable[_Unit], new: Iterable[_Unit]) -> set[Entry]:
     """What a look-up may find otherwise below the statements `new` than below `old`, which stood in their place."""
-    gone = [each for unit in old for each in told(unit.writes).items()]
-    put = [each for unit in new for each in told(unit.writes).items()]
+    gone = [each for unit in old for each in unit.left.entries.items()]
+    put = [each for unit in new for each in unit.left.entries.items()]
     changed = _differences(dict(gone), dict(put))
     if [entry for entry, _ in gone] != [entry for entry, _ in put]:
         changed.add(ALL_NAMES)
@@ -225,7 +236,7 @@ def _check(symbols: SymbolTable, statement: Statement, dialect: Dialect, callabl
     symbols.begin()
     context = Context(symbols, dialect, callables=callables)
     check_statement(context, statement)
-    return _Unit(symbols.reads, symbols.writes, context.tables, tuple(context.complaints), tuple(context.deferred))
+    return _Unit(symbols.reads, symbols.leave(), context.tables, tuple(context.complaints), tuple(context.deferred))
 
 
 def _deferred(symbols: SymbolTable, unit: _Unit, loaded: LoadedModules, callables: Callables) -> tuple[Diagnostic, ...]:

@@ -26,14 +26,9 @@ from nddl_lang.text.source import Span
 Entry = tuple[str, str]
 
 _RULE = "rule"
-_IN_SCHEMA = frozenset({"class", "enum", "value", "typedef", "global", "goal", _RULE})  # what declares, and rules
+_DECLARED = frozenset({"class", "enum", "value", "typedef", "global", "goal"})
 ALL_NAMES: Entry = ("names", "*")
 _EVERYTHING = "*"
-
-
-def told(writes: dict[Entry, object]) -> dict[Entry, object]:
-    """What of these writes other statements can look up: nobody looks up a rule."""
-    return {entry: value for entry, value in writes.items() if entry[0] != _RULE}
 
 
 def doubt(name: str = _EVERYTHING) -> dict[Entry, object]:
@@ -44,6 +39,31 @@ def doubt(name: str = _EVERYTHING) -> dict[Entry, object]:
 def declare_below(name: str, span: Span) -> dict[Entry, object]:
     """The entry by which the script declares `name` somewhere."""
     return {("below", name): span}
+
+
+class LeftBehind:
+    """What a statement leaves behind: entries that others can look up, declarations among them, and rules.
+
+    `number` tells the names that it declares from all others; 0 where it declares none.
+    """
+
+    __slots__ = ("declared", "entries", "number", "rules")
+
+    def __init__(self, writes: dict[Entry, object]) -> None:
+        self.entries = {entry: value for entry, value in writes.items() if entry[0] != _RULE}
+        self.rules = [cast(Rule, value) for entry, value in writes.items() if entry[0] == _RULE]
+        self.declared = [(*entry, value) for entry, value in self.entries.items() if entry[0] in _DECLARED]
+        names = tuple([each[:2] for each in self.declared])
+        self.number = hash(names) if names else 0
+
+
+_NATIVE = LeftBehind(
+    {
+        **{("class", name): native for name, native in NATIVE_CLASSES.items()},
+        ("enum", NATIVE_ENUM.name): NATIVE_ENUM,
+        **{("value", name): value for name, value in NATIVE_ENUM_VALUES.items()},
+    }
+)
 
 
 class SymbolTable:
@@ -63,13 +83,7 @@ class SymbolTable:
         self.writes: dict[Entry, object] = {}
         self._entries: dict[Entry, object] = {ALL_NAMES: 0}
         self._names = 0
-        self.replay(
-            {
-                **{("class", name): native for name, native in NATIVE_CLASSES.items()},
-                ("enum", NATIVE_ENUM.name): NATIVE_ENUM,
-                **{("value", name): value for name, value in NATIVE_ENUM_VALUES.items()},
-            }
-        )
+        self.replay(_NATIVE)
 
     # ---- the record ----
 
@@ -88,12 +102,26 @@ class SymbolTable:
                 return False
         return True
 
-    def replay(self, writes: dict[Entry, object]) -> None:
+    def replay(self, left: LeftBehind) -> None:
         """Leave behind what a statement left behind when it was analysed."""
-        self._entries.update(writes)
-        for (table, name), value in writes.items():
-            if table in _IN_SCHEMA:
-                self._enter(table, name, value)
+        if left.entries:
+            self._entries.update(left.entries)
+        for table, name, value in left.declared:
+            self._declared[table][name] = value
+        if left.rules:
+            self.schema.rules += left.rules
+        if left.number:
+            self._number(left)
+
+    def leave(self) -> LeftBehind:
+        """What the present statement leaves behind, now that all of it is analysed."""
+        left = LeftBehind(self.writes)
+        self._number(left)
+        return left
+
+    def _number(self, left: LeftBehind) -> None:
+        if left.number:
+            self._names = hash((self._names, left.number))
 
     def entries(self) -> dict[Entry, object]:
         """All entries as they stand."""
@@ -120,7 +148,6 @@ class SymbolTable:
         declared = self._declared.get(table)
         if declared is not None:
             declared[name] = value
-            self._names = hash((self._names, table, name))
         elif table == _RULE:
             self.schema.rules.append(cast(Rule, value))
 

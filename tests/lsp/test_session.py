@@ -257,6 +257,6 @@ def test_what_was_sent_of_a_text_is_forgotten_when_it_is_closed(tmp_path: Path) 
     uri, _ = model(tmp_path)
     session.publish(session.documents.open(uri, 1, MODEL))
     assert b"NDDL201" in sent[-1]
-    assert uri in protocol._plain
+    assert uri in protocol.written.known
     session.publish(session.documents.close(uri))
-    assert protocol._plain == {}
+    assert protocol.written.known == {}
