@@ -126,9 +126,11 @@ class Table:
         self._complain_of_type(key, value, "a text in quotes")
         return default or ""
 
-    def strings(self, key: str) -> tuple[str, ...]:
-        """A list of texts, empty by default."""
+    def strings(self, key: str, but: str | None = None) -> tuple[str, ...]:
+        """A list of texts, empty by default: also that of a misspelt key, which `close` tells of, but not of `but`."""
         value = self._take(key)
+        if key not in self.values and (meant := self._misspelt(key, but)) is not None:
+            value = self.values[meant]
         if isinstance(value, list) and all(isinstance(item, str) for item in value):
             return tuple(value)
         self._complain_of_type(key, value, "a list of texts", f'write ["{value}"]' if isinstance(value, str) else None)
@@ -231,7 +233,7 @@ class Table:
         return (lower, upper)
 
     def choice(self, key: str, choices: Sequence[str], default: str) -> str:
-        """One of the words `choices`."""
+        """One of the words `choices`: of another one it is said which is meant, and that one is taken."""
         value = self._take(key)
         if isinstance(value, str):
             if value in choices:
@@ -241,8 +243,8 @@ class Table:
             listed = ", ".join(choices)
             advice = f"did you mean `{close}`?" if close else None
             self.text.diagnostics.append(UNKNOWN_CHOICE.at(span, key=key, found=value, choices=listed, help=advice))
-        else:
-            self._complain_of_type(key, value, "a text in quotes")
+            return close or default
+        self._complain_of_type(key, value, "a text in quotes")
         return default
 
     def table(self, key: str, caption: str, *, needed: bool = False) -> "Table":
@@ -284,10 +286,11 @@ class Table:
             self.text.diagnostics.append(MISSING_KEY.at(span, table=self.caption, key=key))
         return self.values.get(key)
 
-    def _misspelt(self, key: str) -> str | None:
-        """The key that stands in the table for a longer one which is missing."""
+    def _misspelt(self, key: str, but: str | None = None) -> str | None:
+        """The key that stands in the table for a longer one which is missing; `but` stands for itself."""
         other = next((each for each in self.values if _OTHER_WORDS.get(each.casefold()) == key), None)
-        return (nearest(key, self.values) if len(key) >= _LEAST_LETTERS else None) or other
+        keys = [each for each in self.values if each != but]
+        return (nearest(key, keys) if len(key) >= _LEAST_LETTERS else None) or other
 
     def _complain_of_type(self, key: str, value: object, wanted: str, advice: str | None = None) -> None:
         if key in self.values:
@@ -304,7 +307,9 @@ def _meant_word(word: str, known: Sequence[str]) -> str | None:
 
 
 def _as_pair(value: object) -> str | None:
-    """How a range that is written as a text is written."""
+    """How a range is written that is a text, or a list of other than two numbers."""
+    if isinstance(value, list) and value and all(_is_number(each) for each in value):
+        return f"a pair has two numbers: write [{min(value)}, {max(value)}]"
     numbers = _NUMBER.findall(re.sub(r"(?<=\d)\s*-\s*(?=\d)", " ", value)) if isinstance(value, str) else []
     return f"write [{numbers[0]}, {numbers[1]}]" if len(numbers) == 2 else None
 

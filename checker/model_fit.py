@@ -51,7 +51,10 @@ def find_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[
         predicate = predicates.get(goal.predicate)
         if predicate is None:
             span = text.value_span(("goal", number, "predicate"))
+            others = [other for other, program in owners.items() if _has(program, other, goal.predicate)]
             advice = _advice(goal.predicate, [*predicates], "predicates")
+            if others and not advice.startswith("did"):
+                advice = f"the timeline `{others[0]}` has it"
             yield NO_PREDICATE.at(span, class_name=class_name, predicate=goal.predicate, help=advice)
         else:
             yield from _strange_arguments(mission, number, predicate, owner)
@@ -151,6 +154,12 @@ def complete(mission: Mission, sites: Mapping[str, ParameterSite]) -> AgentConfi
 def _objects(program: Program) -> dict[str, str]:
     """The class of each object that a global variable holds."""
     return {name: code.type_name for name, code in program.globals if code.kind == "object"}
+
+
+def _has(program: Program, timeline: str, predicate: str) -> bool:
+    """Whether a timeline of the model has a predicate of that name."""
+    full_name = f"{_objects(program)[timeline]}.{predicate}"
+    return any(one.name == full_name for one in program.predicates)
 
 
 def _advice(name: str, known: list[str], what: str) -> str:

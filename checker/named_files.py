@@ -3,7 +3,7 @@
 import ast
 from pathlib import Path
 
-from checker.codes import NO_CLASS, NO_FILE, NO_TEXT_FILE
+from checker.codes import NO_CLASS, NO_FILE, NO_TEXT_FILE, OUT_OF_RANGE
 from checker.mission_table import MissionText
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_text
@@ -43,6 +43,18 @@ def look_at_class(text: MissionText, key: tuple[str | int, ...], root: Path, fil
     if named is None or class_name in named[0] or class_name in named[1]:
         return
     classes = named[0]
+    if not file and class_name.endswith(".py"):
+        found = (_names_in(root / class_name) or ([], set()))[0]
+        text.diagnostics.append(
+            OUT_OF_RANGE.at(
+                text.value_span(key),
+                key=key[-1],
+                wanted="a file and a class in it, `file.py:Class`",
+                found=f"`{class_name}`",
+                help=f"write `{class_name}:{found[0]}`" if len(found) == 1 else None,
+            )
+        )
+        return
     close = nearest(class_name, classes)
     there = f"it has {', '.join(f'`{each}`' for each in classes)}" if classes else "it has no class at all"
     help_text = f"did you mean `{close}`?" if close else there

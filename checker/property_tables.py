@@ -47,7 +47,8 @@ def read_properties(tables: list[Table], owned: tuple[str, ...]) -> tuple[Proper
             span = table.text.key_span(table.path)
             table.text.diagnostics.append(MISSING_KEY.at(span, table=table.caption, key="ticks"))
         table.asked += ["by", "ticks"]
-        if kind not in _NEEDS_THEN and then is not None:
+        is_known = table.values.get("kind") in tuple(PropertyKind)
+        if is_known and kind not in _NEEDS_THEN and then is not None:
             table.complain_of_value("then", "a table", "left out: it belongs to within and until")
         table.close()
         found.append(PropertyConfiguration(name, kind, pattern, then, since, by, ticks))

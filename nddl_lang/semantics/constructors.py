@@ -176,6 +176,7 @@ def _resolve_target(context: Context, scope: Scope, path: PathExpr) -> Reference
     member = context.symbols.find_member(scope.own_class, head.name)
     if member is None and not rest and find(context, scope, head.name) is None:
         complain_unknown(context, scope, head, is_target=True)
+        context.symbols.put_faulty(head.name)  # whoever reads the member lacks the same declaration
         return None
     if member is None:
         return resolve(context, scope, path)

@@ -70,9 +70,18 @@ def resolve_value(context: Context, scope: Scope, path: PathExpr, compared: str 
     """Like `resolve`, for a place where a class is no answer."""
     reference = resolve(context, scope, path, compared=compared)
     if isinstance(reference, ClassReference):
-        context.complain(CLASS_AS_VALUE.at(path.span, name=reference.name))
+        _complain_class(context, scope, path.span, reference.name)
         return None
     return reference
+
+
+def _complain_class(context: Context, scope: Scope, span: Span, name: str) -> None:
+    """Say that a class stands where a value is needed: its name may differ from a variable's in a capital only."""
+    values = [*scope.visible(), *context.symbols.names("global")]
+    alike = next((each for each in values if each.casefold() == name.casefold() and each != name), None)
+    fixes = (Fix(f"write `{alike}`", (Edit(span, alike),), safe=False),) if alike is not None else ()
+    help_ = f"did you mean `{alike}`?" if alike is not None else None
+    context.complain(CLASS_AS_VALUE.at(span, help=help_, fixes=fixes, name=name))
 
 
 def name_beside(binary: BinaryExpr, side: Expr) -> str | None:
@@ -136,7 +145,7 @@ def resolve_dotted(
             return None
         case ClassReference(name=name):
             context.tables.references[head] = start
-            context.complain(CLASS_AS_VALUE.at(head.span, name=name))
+            _complain_class(context, scope, head.span, name)
             return None
     context.tables.references[head] = start
     return follow(context, scope, start, head, rest, but)
@@ -300,6 +309,8 @@ def complain_unknown(
         last = other_name(word, scope.own.predicate) if scope.own is not None else None
         candidates = [each for each in candidates if each != compared]
         complaint = suggest_name(complaint, name, candidates, meant, last if last != compared else None)
+        if is_target and complaint.help is None:
+            complaint = _with(complaint, f"declare `{word}` as a member of class `{constructed}`", ())
         if type_name is not None:
             before = Span(name.span.anchor, name.span.start, name.span.start)
             fix = Fix(f"declare `{type_name} {word}`", (Edit(before, f"{type_name} "),), safe=False)

@@ -14,12 +14,15 @@ from nddl_lang.text.diagnostic import Edit, Fix, Note
 
 _STATEMENT_BEGINS = frozenset(("IDENT", "BASETYPE", "close", "new"))
 _TYPES = frozenset(("BASETYPE", "filter"))
+_BRANCHES = frozenset(("if", "else", "foreach"))
+_OPENS = frozenset(("{", "SET"))
 _MEMBERS = _TYPES | {"predicate", "action"}
 _LINE = re.compile(r"\n([ \t]*)(//[^\n]*|[^\s])")
 # Not possessive: Python up to 3.11.2 misplaces a group behind a possessive one. Each line is read in one way only.
 _NEXT_LINE = re.compile(r"(?:[ \t\r\f]*(?://[^\n]*)?\n)*([ \t]*)(\}|(?:predicate|action)(?![A-Za-z0-9_$]))?")
 _STRAYS = re.compile(r"((?:[ \t\r\n\f]*\})*)[ \t\r\n\f]*")
 _LONGEST = len("predicate") + 1
+ELSE_AHEAD = re.compile(r"(?:[ \t\r\n\f]+|//[^\n]*|/\*.*?\*/)*(else(?![A-Za-z0-9_$]))?", re.DOTALL)
 # What is given back is read again: without a limit, by each of many pieces inside of each other.
 _MOST_GIVEN_BACK = 2000
 
@@ -63,11 +66,7 @@ def put_in(piece: Piece, brackets: Brackets, base: int, at: int) -> None:
 
 def close_body(piece: Piece, brackets: Brackets, base: int, at: int) -> None:
     """Close the predicate or constructor that is still open where another member of a class begins at lexeme `at`."""
-    kinds = piece.kinds
-    depth, opener = 0, at - 1
-    while opener > 0 and (kinds[opener] not in ("{", "SET") or depth > 0):
-        depth += {"}": 1, "{": -1, "SET": -1}.get(kinds[opener], 0)
-        opener -= 1
+    opener = _opener_of(piece.kinds, at)
     while len(brackets.open) > 1:
         if brackets.open.pop() in ("{", "SET"):
             piece.mends.append((at, "}"))
@@ -76,6 +75,98 @@ def close_body(piece: Piece, brackets: Brackets, base: int, at: int) -> None:
     notes = (Note("it should end here", piece.span(place, place)),)
     fixes = (Fix("add `}`", (Edit(piece.span(place, place), " }"),), safe=False),)
     piece.report(UNCLOSED_BRACE, start, start + 1, text="{", notes=notes, fixes=fixes)
+
+
+def close_branch(piece: Piece, brackets: Brackets, base: int, start: int) -> None:
+    """Close the block of an `if` that is still open where the `else` at `start` begins."""
+    kinds = piece.kinds
+    if brackets.innermost != "{" or kinds[-1:] != [";"] or kinds[_statement_before(kinds, len(kinds) - 1)] == "if":
+        return
+    opener = _opener_of(kinds, len(kinds))
+    if kinds[_condition_before(kinds, opener) - 1] != "if":
+        return
+    brackets.open.pop()
+    piece.mends.append((len(kinds), "}"))
+    at, place = piece.starts[opener] - base, start - base
+    notes = (Note("it should end here", piece.span(place, place)),)
+    fixes = (Fix("add `}`", (Edit(piece.span(place, place), "} "),), safe=False),)
+    piece.report(UNCLOSED_BRACE, at, at + 1, text="{", notes=notes, fixes=fixes)
+
+
+def open_branch(piece: Piece, brackets: Brackets, text: str, base: int, finish: int, depth: int, indent: int) -> bool:
+    """Put in the `{` of an `if`, `else` or `foreach` where its `}`, which ends at `finish`, closed the whole rule.
+
+    It is seen by what cannot follow a rule: an `else`, or, where the `}` stands `depth` blanks deep, alone in its line
+    and deeper than the rule at `indent`, another `}`.
+    """
+    missing = _without_block(piece.kinds)
+    if missing < 0:
+        return False
+    ahead, following = ELSE_AHEAD.match(text, finish), _NEXT_LINE.match(text, finish)
+    assert ahead is not None and following is not None
+    end = max(ahead.end(), following.end())
+    piece.reach = max(piece.reach, len(text) + 1 if text.startswith("/", ahead.end()) else end + _LONGEST)
+    is_closed_again = depth > indent >= 0 and (following[2] == "}" or _goes_on(piece, text, finish, indent))
+    if ahead[1] is None and not is_closed_again:
+        return False
+    put_in(piece, brackets, base, missing)
+    return True
+
+
+def _without_block(kinds: Sequence[str]) -> int:
+    """What stands behind the last `if (...)`, `else` or `foreach (...)` of a rule's body in place of `{`; else -1."""
+    if _BRANCHES.isdisjoint(kinds):
+        return -1
+    depth = 1  # the `}` at hand is not among the lexemes yet
+    for at in range(len(kinds) - 1, 0, -1):
+        depth += {"}": 1, "{": -1, "SET": -1}.get(kinds[at], 0)
+        if kinds[at] in _BRANCHES and depth == 1:
+            behind = at + 1 if kinds[at] == "else" else _behind_condition(kinds, at + 1)
+            if kinds[behind : behind + 1] not in (["{"], ["if"], []):
+                return behind
+    return -1
+
+
+def _opener_of(kinds: Sequence[str], end: int) -> int:
+    """The innermost `{` that is open before the lexeme `end`."""
+    depth, at = 0, end - 1
+    while at > 0 and (kinds[at] not in _OPENS or depth > 0):
+        depth += {"}": 1, "{": -1, "SET": -1}.get(kinds[at], 0)
+        at -= 1
+    return at
+
+
+def _statement_before(kinds: Sequence[str], end: int) -> int:
+    """Where the statement begins whose `;` is the lexeme `end`."""
+    at = end - 1
+    while at > 0 and kinds[at] not in (";", "{"):
+        if kinds[at] == "}":
+            opener = _opener_of(kinds, at)
+            if kinds[opener] == "{":
+                break
+            at = opener
+        at -= 1
+    return at + 1
+
+
+def _condition_before(kinds: Sequence[str], end: int) -> int:
+    """The `(` of the parentheses that close right before the lexeme `end`; 0 where none do."""
+    depth = 0
+    for at in range(end - 1, 0, -1):
+        depth += {")": 1, "(": -1}.get(kinds[at], 0)
+        if depth == 0:
+            return at if kinds[at] == "(" else 0
+    return 0
+
+
+def _behind_condition(kinds: Sequence[str], begin: int) -> int:
+    """The first lexeme behind the parentheses that the lexeme `begin` opens."""
+    depth = 0
+    for at in range(begin, len(kinds)):
+        depth += {"(": 1, ")": -1}.get(kinds[at], 0)
+        if depth == 0:
+            return at + 1
+    return len(kinds)
 
 
 def is_surplus(piece: Piece, text: str, finish: int, indent: int, *, is_alone: bool) -> bool:

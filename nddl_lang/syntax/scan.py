@@ -7,7 +7,9 @@ import re
 from itertools import islice
 
 from nddl_lang.syntax.braces import (
+    ELSE_AHEAD,
     close_body,
+    close_branch,
     end_of_strays,
     first_outside,
     give_back,
@@ -15,6 +17,7 @@ from nddl_lang.syntax.braces import (
     lacks_brace,
     leave_out,
     leave_out_doubled,
+    open_branch,
     open_head,
     put_in,
 )
@@ -61,14 +64,13 @@ _MASTER = re.compile(
     )""",
     re.VERBOSE | re.DOTALL,
 )
-_ELSE_AHEAD = re.compile(r"(?:[ \t\r\n\f]+|//[^\n]*|/\*.*?\*/)*(else(?![A-Za-z0-9_$]))?", re.DOTALL)
 
 # After one of these an operand has ended, so a sign that follows is an operator.
 _OPERANDS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", ")", "]"))
 # At the start of a line these begin a top-level statement, whatever is still open.
 _TOP_LEVEL = frozenset(("class", "enum", "typedef", "GOAL"))
 _MEMBERS = frozenset(("predicate", "action"))
-_WATCHED_WORDS = _TOP_LEVEL | _MEMBERS | {"if", "FORMER", "super"}
+_WATCHED_WORDS = _TOP_LEVEL | _MEMBERS | {"if", "else", "FORMER", "super"}
 _BRACKETS = frozenset("{}()[];")
 _WATCHED_SIGNS = _BRACKETS | {"::", ":", "#include"}
 _AFTER_HEAD = (["{"], ["="], ["-"], [":"])  # of a rule, where no statement begins
@@ -203,6 +205,8 @@ class Scanner:
     def _watch_word(self, kind: str, start: int, finish: int) -> str:
         if kind == "if":
             self._has_if = self._has_if or not self._brackets
+        elif kind == "else":
+            close_branch(self._piece, self._brackets, self._base, start)
         elif kind == "FORMER":
             self._piece.has_former_words = True
             return "IDENT"
@@ -250,17 +254,17 @@ class Scanner:
         elif kind == "#include":
             return self._read_include(start, finish)
         elif self._brackets.closes_statement(kind, kinds[-1] if kinds and not self._is_head_of_rule() else None):
+            if kinds[1:3] == ["::", "IDENT"] and self._lacks_brace(kind, start, finish):
+                return kind
             if kind == "}" and kinds and self._is_surplus(start, finish):
                 return ""
-            if kinds[1:3] == ["::", "IDENT"] and kinds[3:4] not in _AFTER_HEAD and self._lacks_brace(finish):
-                return kind
             self._end = finish
             if kind == "}" and not kinds:
                 self._end, seen = end_of_strays(self._source.text, finish)
                 piece.reach = max(piece.reach, seen + 1)
             if self._has_if:
                 # The condition may have an `else` branch.
-                ahead = _ELSE_AHEAD.match(self._source.text, finish)
+                ahead = ELSE_AHEAD.match(self._source.text, finish)
                 assert ahead is not None
                 is_open = self._source.text.startswith("/", ahead.end())  # a comment may come to end somewhere
                 piece.reach = _BEYOND if is_open else max(piece.reach, ahead.end() + len("else") + 1)
@@ -289,13 +293,15 @@ class Scanner:
         leave_out(piece, self._brackets, start, self._base)
         return True
 
-    def _lacks_brace(self, finish: int) -> bool:
+    def _lacks_brace(self, kind: str, start: int, finish: int) -> bool:
         """Whether a rule ends too early for want of a `{`, which is then put in."""
-        piece = self._piece
+        piece, text, base = self._piece, self._source.text, self._base
         indent = self._indent(piece.starts[0])
-        if indent < 0 or piece.mends or not lacks_brace(piece, self._source.text, finish, indent):
+        if piece.kinds[3:4] in _AFTER_HEAD:
+            return kind == "}" and open_branch(piece, self._brackets, text, base, finish, self._indent(start), indent)
+        if indent < 0 or piece.mends or not lacks_brace(piece, text, finish, indent):
             return False
-        put_in(piece, self._brackets, self._base, 3)
+        put_in(piece, self._brackets, base, 3)
         return True
 
     def _read_include(self, start: int, finish: int) -> str:

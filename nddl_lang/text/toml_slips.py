@@ -9,6 +9,8 @@ from nddl_lang.text.toml_places import HEADER
 
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
 _WORD = re.compile(r"[A-Za-z_/][^\s,;#\]}\"']*")
+_LIST_BEGINS = re.compile(r"^[^#\n=\"']*=[ \t]*\[", re.MULTILINE)
+_NO_VALUE = re.compile(r"\s*(?:\Z|\[[\[ \t]*[A-Za-z_]|[\w.\"'-]+[ \t]*=)")
 _DIGITS = re.compile(r"[0-9]+(?:\.[0-9]+)?\Z")
 _TRUTHS = {"true": "true", "yes": "true", "on": "true", "false": "false", "no": "false", "off": "false"}
 _OPEN_TEXT = "the quotes of a text close in its line"
@@ -28,7 +30,8 @@ def not_toml(code: Code, source: Source, problem: str) -> Diagnostic:
         return code.at(span, reason=reason, help=f"each of several begins with `[[{name}]]`", fixes=(fix,))
     for begin, advise in _SLIPS:
         if reason.startswith(begin) and (found := advise(source, at)) is not None:
-            return code.at(_span(source, at, at + 1), reason=reason, help=found[0], fixes=found[1])
+            place = _opened(source, at) if advise is _array else at
+            return code.at(_span(source, place, place + 1), reason=reason, help=found[0], fixes=found[1])
     return code.at(_span(source, at, at + 1), reason=reason)
 
 
@@ -120,7 +123,17 @@ def _statement(source: Source, at: int) -> _Advice | None:
 def _array(source: Source, at: int) -> _Advice | None:
     if source.text.startswith(";", at):
         return _instead(source, at, at + 1, ",", "values of a list stand between commas")
-    return "the list is not closed: `]` is missing, or a `,`", ()
+    opened = _opened(source, at)
+    if opened == at:
+        return "values of a list stand between commas", ()
+    end = len(source.text[:at].rstrip())
+    return "the list is not closed: `]` is missing", (Fix("add `]`", (Edit(_span(source, end, end), "]"),)),)
+
+
+def _opened(source: Source, at: int) -> int:
+    """Where the list begins that is not closed before the key, header or end of the text at `at`; else `at`."""
+    begun = [each.end() - 1 for each in _LIST_BEGINS.finditer(source.text, 0, at)]
+    return begun[-1] if begun and _NO_VALUE.match(source.text, at) else at
 
 
 _SLIPS: tuple[tuple[str, Callable[[Source, int], _Advice | None]], ...] = (

@@ -11,6 +11,7 @@ import pytest
 
 from nddlc.main import run
 from tests.cli.habits import HABITS, Mistake
+from tests.cli.slips_in_templates import SLIPS_IN_TEMPLATES
 
 ROOT = Path(__file__).parents[2] / "models"
 Captured = pytest.CaptureFixture[str]
@@ -166,6 +167,7 @@ MORE_MISTAKES = (
         "`predicate`",
     ),
     *HABITS,
+    *SLIPS_IN_TEMPLATES,
 )
 
 

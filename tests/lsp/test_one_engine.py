@@ -6,6 +6,7 @@ A part of a model is shown as what it is there, so it is held to what the linter
 
 import json
 import os
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from lsp.roots import root_of
 from nddl_lang.text.read import read_text
 from nddlc.editor import make_editor_session
 from nddlc.main import run
+from tests.cli.slips_in_templates import SLIPS_IN_TEMPLATES
 
 ROOT = Path(__file__).resolve().parents[2]
 FILES = {
@@ -114,3 +116,21 @@ def test_the_server_tells_of_a_mission_file_what_the_linter_tells(make_wire: Any
         assert served(make_wire(make_editor_session(None, (), is_trusted=True)), path, texts, text) == expected, path
         compared += 1
     assert compared > 5
+
+
+@pytest.mark.parametrize("share", range(4))
+def test_the_server_tells_of_a_mistake_what_the_linter_tells(
+    make_wire: Any, capsys: Any, share: int, tmp_path: Path
+) -> None:
+    for number, mistake in enumerate(SLIPS_IN_TEMPLATES[share::4]):
+        folder = tmp_path / str(number)
+        shutil.copytree((ROOT / "models" / mistake.file).parent, folder)
+        path = folder / Path(mistake.file).name
+        text = path.read_text().replace(mistake.right, mistake.wrong)
+        path.write_text(text)
+        texts = Texts()
+        wire = make_wire(make_editor_session(None, (), is_trusted=True))
+        expected = linted(root_of(path) or path, texts, capsys)
+        if path.suffix == ".toml":  # of its models the server tells where these are open
+            expected = [each for each in expected if each[0] == str(path)]
+        assert served(wire, path, texts, text) == expected, mistake
