@@ -205,13 +205,14 @@ def _read_model(table: Table, root: Path) -> ReactorConfiguration:
     model = table.string("model")
     is_told = any(table.has(key) for key in ("internal", "external", "observe"))
     roles = {} if is_told or not model else declared_roles(root / model)
+    internal, external = table.strings("internal", "external"), table.strings("external", "internal")
     return ReactorConfiguration(
         name=table.string("name"),
         model=model,
         latency=table.whole("latency", default.latency, 0),
         lookahead=table.whole("lookahead", default.lookahead, 0),
-        internal=roles.get("internal") or table.strings("internal", "external"),
-        external=roles.get("external") or table.strings("external", "internal"),
+        internal=roles.get("internal") or internal,
+        external=roles.get("external") or external,
         solver=table.string("solver", "") or None,
         early=table.strings("early"),
         late=table.strings("late"),
