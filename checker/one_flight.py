@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from checker.batch.identity import model_digest
-from checker.flight import fly_programs
+from checker.before_mission import put_before
+from checker.flight import fly_recorded
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Judgement, judge_within
@@ -43,6 +44,7 @@ class Flight:
     models: str  # digest
     outcome: Outcome
     judgement: Judgement
+    before: tuple[tuple[str, str, str], ...] = ()  # put before the mission: predicate, timeline, and who asked for it
 
 
 def fly(mission: Mission, models: ModelSet, settings: FlightSettings, clock: FastClock | None = None) -> Flight:
@@ -52,7 +54,7 @@ def fly(mission: Mission, models: ModelSet, settings: FlightSettings, clock: Fas
     """
     programs = pinned(models).programs_of(models.agent)
     logged = None if settings.steps is None else LogClock(dict(settings.steps))
-    outcome = fly_programs(
+    outcome, record = fly_recorded(
         models.agent, programs, settings.seed, dict(settings.values), settings.until, clock=clock or logged
     )
     if clock is not None:
@@ -61,7 +63,7 @@ def fly(mission: Mission, models: ModelSet, settings: FlightSettings, clock: Fas
     drawn = {one.parameter: one.value for one in outcome.draws if one.parameter in placed}
     settings = replace(settings, values=drawn | dict(settings.values))
     judged = judge_within(outcome, mission.check.limits)
-    return Flight(settings, model_digest(models.texts), outcome, judged)
+    return Flight(settings, model_digest(models.texts), outcome, judged, put_before(models.agent, record))
 
 
 def trace_text(flight: Flight, mission: Path, trace: Path) -> str:

@@ -124,6 +124,9 @@ def _report(agent: AgentConfiguration, flight: Flight) -> str:
         goals = f"; {awaited} of its goals may still be achieved" if awaited > 0 else ""
         cut = f"flown to tick {outcome.last_tick} only, and judged as far"
         lines.append(f"  {cut}: the mission ends at {agent.final_tick}{goals}\n")
+    for predicate, timeline, asker in flight.before:
+        why = "the plan put it before tick 0; say that it starts at 0 or later"
+        lines.append(f"  never carried out: {predicate} on `{timeline}`, asked for by {asker}: {why}\n")
     lines += [f"  open: {goal_text(goal)}{_so_far(goal, outcome.events)}\n" for goal in outcome.open_goals]
     if judgement.verdict is not Verdict.PASS:
         excerpts = Excerpts(Path(agent.root))

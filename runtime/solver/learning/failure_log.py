@@ -1,7 +1,7 @@
 """Failure log: which resolvers failed for which flaws, and the causes, as data; words are made in `rendering.py`.
 
 For explanations only: each failure is explained and minimised, which costs far more than the search itself. After
-`_MOST` failures the log stays as it is.
+`_MOST` failures the log stays as it is; of what the search had pruned, `_MOST_PRUNED` are tried.
 """
 
 from collections.abc import Callable
@@ -24,6 +24,7 @@ from runtime.solver.learning.attempts import Attempt, CauseOrigin, FailedFlaw, F
 from runtime.solver.tags import OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
 
 _MOST = 400
+_MOST_PRUNED = 200
 _MOST_TRIALS = 20
 
 
@@ -43,7 +44,7 @@ class FailureLog:
         self.agenda = agenda
         self.stack = stack
         self._reader = reader or self._script_reader
-        self.count = 0
+        self.count = self.pruned = 0
         self.attempts: dict[int, list[Attempt]] = {}
         self.rejections: dict[str, FailedFlaw] = {}
         self.end: FailedFlaw | None = None
@@ -72,7 +73,7 @@ class FailureLog:
     def note_dead_end(self, d: int, heir: int) -> None:
         """Decision `d` has no resolver left; the search goes on at `heir` (NONE: nowhere)."""
         reader = self._reader()
-        if self.count < _MOST:
+        if self.count < _MOST and self.pruned < _MOST_PRUNED:
             self._try_pruned(d, reader)
         failed = FailedFlaw(self._flaw(d, reader), tuple(self.attempts.pop(d, ())))
         for other in range(max(heir, 0) + 1, d):
@@ -171,10 +172,14 @@ class FailureLog:
                 mark = self.database.mark()
                 if not merge(self.plan, item, other, NONE):
                     resolver = Resolver(ResolverKind.MERGE, (reader.token(other),))
-                    self._add(d, self._attempt(resolver, reader))
+                    self._add_pruned(d, resolver, reader)
                 self.database.release(mark)
                 other = next_active(self.plan, other, rows.predicate[item])
                 trials += 1
+
+    def _add_pruned(self, d: int, resolver: Resolver, reader: TermReader) -> None:
+        self.pruned += 1
+        self._add(d, self._attempt(resolver, reader))
 
     def _try_insertions(self, d: int, t: int, reader: TermReader) -> None:
         """Try every insertion of a token on every timeline that it may be on."""
@@ -193,7 +198,7 @@ class FailureLog:
                     return
                 mark = self.database.mark()
                 if not (order(self.plan, o, before, after, NONE) and fire(self.plan)):
-                    self._add(d, self._attempt(self._insertion(o, before, after, t, reader), reader))
+                    self._add_pruned(d, self._insertion(o, before, after, t, reader), reader)
                 self.database.release(mark)
 
 
