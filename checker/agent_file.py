@@ -3,6 +3,7 @@
 What is read has the form of `mission.toml`, and is checked with it; only what XML can get wrong is told here.
 """
 
+import os
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,6 +11,7 @@ from pathlib import Path
 from checker.codes import MISSING_KEY, NO_EFFECT, NO_FILE, TWICE, UNKNOWN_ELEMENT, UNKNOWN_KEY, WRONG_TYPE
 from checker.mission_table import MissionText, TomlTable
 from compiler.program import TOKEN_TIMES
+from nddl_lang.lint.configuration import settings_in
 from nddl_lang.text.diagnostic import Note
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_source
@@ -39,6 +41,7 @@ _MODELLED = {
     "maxSteps": "max_steps",
     "maxDepth": "max_depth",
 }
+_FILES = ("model", "solver", "log")
 _CODED = {"name": "name", "latency": "latency", "lookahead": "lookahead", "code": "code"}
 _PLAYED = {"name": "name", "latency": "latency", "lookahead": "lookahead"}
 _UNREAD = ("config", "log", "verbose", "all_plans", "relation_gv")  # what T-REX writes beside the mission
@@ -111,7 +114,7 @@ class _AgentFile:
         """What a reactor did, from its log; one of T-REX says as well which timelines it had."""
         named = {attribute.name: attribute for attribute in element.attributes}
         name = named["name"].value if "name" in named else ""
-        trace = named["file"].value if "file" in named else f"{name}{SUFFIX}"
+        trace = self._found(named["file"].value if "file" in named else f"{name}{SUFFIX}")
         path: Keys = ("reactor", len(self.reactors))
         place = named["file"].span if "file" in named else element.span
         for key in ((), ("code",), ("settings",), ("settings", "trace")):
@@ -131,7 +134,7 @@ class _AgentFile:
         named = element.find("config")
         if named is None:
             return element
-        file = self.root / named.value
+        file = self.root / self._found(named.value)
         if not file.is_file():
             self.text.diagnostics.append(NO_FILE.at(named.span, path=named.value))
             return element
@@ -259,7 +262,7 @@ class _AgentFile:
         file = element.find("file")
         if file is None:
             self.text.diagnostics.append(MISSING_KEY.at(element.span, table="<Use>", key="file"))
-        elif not (self.root / file.value).is_file():
+        elif not (self.root / self._found(file.value)).is_file():
             self.text.diagnostics.append(NO_FILE.at(file.span, path=file.value))
 
     def _clock(self, element: Element) -> None:
@@ -303,7 +306,8 @@ class _AgentFile:
             key = known.get(attribute.name, known.get(close or ""))
             if key is not None:
                 is_text = key in ("name", "model", "solver", "code", "timeline", "predicate", "log")
-                table[key] = attribute.value if is_text else _value(attribute.value)
+                text = self._found(attribute.value) if key in _FILES else attribute.value
+                table[key] = text if is_text else _value(text)
                 self._put((*path, key), attribute.span)
             if attribute.name not in known and attribute.name not in unread:
                 names = ", ".join([*known, *read]) or "none"
@@ -311,6 +315,12 @@ class _AgentFile:
                 self.text.diagnostics.append(
                     UNKNOWN_KEY.at(attribute.span, key=attribute.name, table=f"<{element.tag}>", help=advice)
                 )
+
+    def _found(self, name: str) -> str:
+        """A file that is named, from the agent file's folder on: T-REX looks in several, which `include` names here."""
+        places = (Path(), *settings_in(self.root).directories)
+        found = next((place / name for place in places if (self.root / place / name).is_file()), None)
+        return name if found is None else Path(os.path.relpath(self.root / found, self.root)).as_posix()
 
     def _complain_of_element(self, element: Element, parent: str, known: tuple[str, ...]) -> None:
         close = nearest(element.tag, list(known))

@@ -51,8 +51,8 @@ def _mode(made: NewExpr, classes: Mapping[str, ClassDecl]) -> str:
     given = tuple(_word(each, {}) for each in made.arguments)
     for _ in range(_DEEPEST):
         code = classes.get(name)
-        if code is None or code.members is None:
-            return ""
+        if code is None or code.members is None:  # that it is not there is told where the model is read
+            return next((word for word in given if word in _KEYS), "")
         made_by = next(
             (one for one in code.members if isinstance(one, ConstructorDecl) and len(one.parameters) == len(given)),
             None,

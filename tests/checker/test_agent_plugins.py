@@ -85,6 +85,7 @@ def test_what_a_plugin_contains_is_read_and_roles_are_those_of_the_models(place:
         ("Beacon top = new Beacon();", {"internal": ("top",), "external": (), "observe": ()}),
         ("Beacon top = new Beacon(3, External);", {"internal": (), "external": ("top",), "observe": ()}),
         ("Plain plain = new Plain();", {"internal": (), "external": (), "observe": ()}),
+        ("Unknown top = new Unknown(External);", {"internal": (), "external": ("top",), "observe": ()}),
     ],
 )
 def test_the_role_of_a_timeline_is_what_its_constructors_make_of_it(
@@ -110,6 +111,18 @@ def test_timelines_that_a_mission_lists_are_all_that_its_reactor_has(place: Path
     listed = NAVIGATOR.replace("/>", '><Internal name="nav"/><External name="helm"/><External name="gps" goals="0"/>')
     agent = mission_in(agent_file(place, f"{listed}</EuropaReactor>{PSIM}{GOAL}")).agent
     assert agent.reactors[0].observe == ("gps",)
+
+
+def test_files_are_looked_for_where_the_project_says(place: Path) -> None:
+    """As T-REX does in the folders of TREX_PATH."""
+    (place / "cfg").mkdir()
+    text = agent_file(place, NAVIGATOR + PSIM + GOAL).read_text()
+    (place / "cfg" / "agent.cfg").write_text(text)
+    assert {code for code, _, _ in complaints(place / "cfg" / "agent.cfg")} == {"NDDL708", "NDDL710"}
+    (place / "nddlc.toml").write_text('include = ["."]\n')
+    agent = mission_in(place / "cfg" / "agent.cfg").agent
+    assert [one.model for one in agent.reactors] == ["../navigator.nddl", "../psim.nddl"]
+    assert flown(place / "cfg" / "agent.cfg").open_goals == ()
 
 
 def test_where_a_plugin_holds_what_is_not_at_home_here_its_else_counts(place: Path) -> None:
