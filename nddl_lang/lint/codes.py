@@ -29,6 +29,7 @@ NO_DURATION = Code("NDDL532", Severity.WARNING, "lint", "a token lasts at least 
 OUTSIDE_HORIZON = Code("NDDL533", Severity.WARNING, "lint", "`{name}` lies outside the horizon, {horizon}")
 NEVER_PLANNED = Code("NDDL534", Severity.WARNING, "lint", "`{name}` has no bound on its time, so it is never planned")
 NO_MERGE = Code("NDDL535", Severity.WARNING, "lint", "`{name}` and `{other}` cannot be one token: `{variable}` differs")
+OVERLAP = Code("NDDL536", Severity.WARNING, "lint", "{name} and {other} overlap, as tokens of a timeline never do")
 UNREACHABLE = Code("NDDL540", Severity.WARNING, "lint", "no goal leads to {what}")
 NEVER_FIRES = Code("NDDL541", Severity.WARNING, "lint", "no token of `{name}` is ever made, so this rule never runs")
 ENDLESS = Code("NDDL542", Severity.WARNING, "lint", "each `{name}` asks for another one, without an end")

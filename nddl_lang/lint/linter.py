@@ -18,6 +18,7 @@ from nddl_lang.lint.numbers import (
     lint_int_results,
     lint_whole_floats,
 )
+from nddl_lang.lint.own_timeline import lint_own_timeline
 from nddl_lang.lint.part import Conditional, Finding, Part, PartLint
 from nddl_lang.lint.portability import lint_filters, lint_includes, lint_portability, lint_texts
 from nddl_lang.lint.resources import lint_resources
@@ -38,6 +39,7 @@ _PART_LINTS: tuple[PartLint, ...] = (
     lint_hidden_names,
     lint_guards,
     lint_times,
+    lint_own_timeline,
     lint_subgoals,
     lint_float_equality,
     lint_beyond_floats,

@@ -12,6 +12,7 @@ from nddl_lang.lint.codes import (
     NEVER_TRUE,
     NO_DURATION,
     NO_EFFECT,
+    OVERLAP,
     SEVERAL_VALUES,
     TOO_LONG,
     UNREACHABLE,
@@ -20,6 +21,7 @@ from nddl_lang.lint.codes import (
 from nddl_lang.text.page import RulePage
 
 _GAUGE = "class Gauge extends Timeline { predicate shown { int level = [0 3]; } predicate dark { } }\n"
+_TWO = _GAUGE + "class Lamp extends Timeline { predicate on { } }\n"
 _SCRIPT = "Gauge gauge = new Gauge();\nclose();\ngoal(gauge.shown g);\ng.level = 2;\n"
 
 RULE_LINT_PAGES = (
@@ -79,8 +81,8 @@ RULE_LINT_PAGES = (
         TOO_LONG,
         "A token must lie within another one that is shorter.",
         "Both durations are bounded in the rule or in the declarations, and the bounds do not fit.",
-        _GAUGE + "Gauge::shown { contains(dark d); duration <= 5; d.duration >= 9; level >= 1; }\n",
-        _GAUGE + "Gauge::shown { contains(dark d); duration <= 9; d.duration >= 5; level >= 1; }\n",
+        _TWO + "Gauge::shown { contains(Lamp.on d); duration <= 5; d.duration >= 9; level >= 1; }\n",
+        _TWO + "Gauge::shown { contains(Lamp.on d); duration <= 9; d.duration >= 5; level >= 1; }\n",
     ),
     RulePage(
         NO_DURATION,
@@ -88,6 +90,15 @@ RULE_LINT_PAGES = (
         "Every token but the events of a `Reservoir` lasts at least 1.",
         _GAUGE + "Gauge::shown { duration == 0; level >= 1; }\n",
         _GAUGE + "Gauge::shown { duration == 1; level >= 1; }\n",
+    ),
+    RulePage(
+        OVERLAP,
+        "A rule asks for two tokens of other predicates on one timeline, at times that overlap.",
+        "Tokens of a timeline never overlap, so the rule can never hold. What must go on at once stands on several "
+        "timelines, or is a parameter of one token. A token on any object of the class is judged where the model makes "
+        "one object only.",
+        _GAUGE + "Gauge::shown { contains(object.dark); level >= 1; }\n",
+        _GAUGE + "Gauge::shown { meets(object.dark); level >= 1; }\n",
     ),
     RulePage(
         UNREACHABLE,
