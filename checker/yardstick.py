@@ -20,7 +20,8 @@ from checker.faults import faults_of
 from checker.mission import Mission
 from checker.models import ModelSet, load_models
 from checker.mutation.choice import Mutant, mutants_of
-from checker.mutation.edits import DROPPED, SmallEdit
+from checker.mutation.edits import SmallEdit
+from checker.mutation.kinds import DROPPED
 from checker.mutation.variant import Overlay, load_over, open_over, with_edit
 from checker.oracle import USER_CODE, Verdict, judge_losses
 from checker.pinned import pinned

@@ -3,7 +3,8 @@
 from checker.counterfactual.numbers import is_apart, is_raised
 from checker.counterfactual.smallness import cost_of
 from checker.counterfactual.usage import Usage
-from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import DROPPED, EditKind
 
 _MOST_FOLLOW_UPS = 3
 

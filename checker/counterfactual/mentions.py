@@ -9,11 +9,13 @@ from collections import Counter, defaultdict
 from collections.abc import Container, Sequence
 
 from checker.counterfactual.word_odds import compared
-from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import EditKind
 
 _PATH = re.compile(r"[A-Za-z_]\w*(?:\.\w+)*")
 _NUMBERS = ("int ", "float ")
 _DECLARED = re.compile(r"\w+\s+(\w+)\s*(?:=(.*))?;", re.DOTALL)
+_OBJECT = re.compile(r"(\w+)\s+(\w+)\s*;")
 _SET = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==")
 _END = re.compile(r"\b(?:start|end)\b")
 _LABELLED = re.compile(r"\(\s*([A-Za-z_][\w.]*)\s+(\w+)\s*\)")
@@ -38,6 +40,7 @@ class Mentions:
         self._predicates: dict[object, dict[str, str]] = defaultdict(dict)  # of the tokens of a rule, by their labels
         self._own: dict[str, set[str]] = defaultdict(set)  # what the rules of a predicate set themselves
         self._found_out: dict[str, set[str]] = defaultdict(set)  # what they set from variables of their own
+        self._classes: dict[object, dict[str, str]] = defaultdict(dict)  # of what a rule declares
         self._same_as: dict[object, dict[str, set[str]]] = defaultdict(lambda: defaultdict(set))
         for site in sites:
             if not site.rule or site.is_rule:
@@ -48,6 +51,8 @@ class Mentions:
             declared = _DECLARED.fullmatch(text)
             if declared is not None:
                 self._locals[scope].add(declared.group(1))
+                if (made := _OBJECT.fullmatch(text)) is not None:
+                    self._classes[scope][made.group(2)] = made.group(1)
                 self._declared[site.rule].add(declared.group(1))
                 if declared.group(2) is None:
                     continue
@@ -99,6 +104,23 @@ class Mentions:
         """Whether other lines of the rule say that a new name is the same as the old one, or as a shorter name."""
         others = self._same_as[_scope(site)][edit.new]
         return any(one == edit.old or one.count(".") < edit.new.count(".") for one in others)
+
+    def merges(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether two objects that a rule chooses have a member in common by an edit: who declares two wants two."""
+        sides = _SAME.fullmatch(compared(site.after(edit)))
+        if sides is None:
+            return False
+        for one, other in (sides.groups(), sides.groups()[::-1]):
+            known = self._same_as[_scope(site)][other] if "." not in other else {other}
+            if any(self._are_two(one, each, site) for each in known):
+                return True
+        return False
+
+    def _are_two(self, one: str, other: str, site: EditSite) -> bool:
+        """Whether paths are of one member of two objects of a class."""
+        classes = self._classes[_scope(site)]
+        (first, _, member), (second, _, same) = one.partition("."), other.partition(".")
+        return member == same != "" and first != second and classes.get(first) == classes.get(second, "")
 
     def unsets(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether nothing sets a variable of a rule any more that a line has set, or a line does so by itself.

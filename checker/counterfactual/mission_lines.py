@@ -45,8 +45,7 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
                 continue
             far = _LOST if (goal.timeline, goal.predicate) in given_up else _OTHERS
         elif table == "asked":
-            if number != due:
-                continue
+            sites = [one for one in sites if number == due or one.wanted]
             far = _ASKED
         elif table == "property":
             if mission.agent.properties[number].name != broken:
@@ -63,7 +62,7 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
                 is_spoken = number in behind
                 site = replace(site, edits=site.edits[-1:] if is_spoken else site.edits[:-1] or site.edits)
             source = Suspicion.CONFLICT if is_spoken or table == "property" else Suspicion.TRACE
-            found.append(Candidate(site, _SPOKEN if is_spoken else far, source))
+            found.append(Candidate(site, _SPOKEN if is_spoken or site.wanted else far, source))
     return sorted(found, key=lambda one: one.far)
 
 

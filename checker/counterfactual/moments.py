@@ -11,7 +11,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from checker.counterfactual.word_odds import compared
-from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import EditKind
 
 _SIDES = re.compile(r"([^<>=!&|?]+)(?:==|<=|>=|<|>)([^<>=!&|?]+);", re.DOTALL)
 _TIME = re.compile(r"([-+]?)\s*(?<![\w.])(?:\w+\.)?(start|end|duration)\b")

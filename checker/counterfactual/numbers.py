@@ -3,7 +3,8 @@
 import math
 import re
 
-from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import EditKind
 
 _COMPUTED = re.compile(r"\s*[A-Za-z_][\w.]*\s*==.*[A-Za-z_)].*;", re.DOTALL)
 NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)

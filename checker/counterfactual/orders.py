@@ -7,7 +7,8 @@ import re
 from collections import defaultdict
 from collections.abc import Sequence
 
-from checker.mutation.edits import EditKind, EditSite, SmallEdit, inverse_of
+from checker.mutation.edits import EditSite, SmallEdit, inverse_of
+from checker.mutation.kinds import EditKind
 
 _LATER = re.compile(r"\s*(\w+)\.start\s*[<>]=?\s*(\w+)\.end\b.*;", re.DOTALL)
 _ORDERED = re.compile(r"\s*(\w+)\s+(before|after|meets|met_by)\s+(\w+)\s*;")

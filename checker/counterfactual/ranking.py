@@ -14,7 +14,8 @@ from checker.counterfactual.candidates import Candidate
 from checker.counterfactual.damage import HEAVY
 from checker.counterfactual.smallness import is_loosening
 from checker.counterfactual.trials import LineTrial, Loose, Trials, TrialsEnd
-from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import EditKind
 from checker.names import relative_name
 from runtime.executive.outcome import SourcePlace
 

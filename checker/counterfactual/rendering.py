@@ -4,7 +4,9 @@ from typing import Any, assert_never
 
 from checker.counterfactual.ranking import Causes, Claim, RankedLine
 from checker.counterfactual.trials import TrialsEnd
-from checker.mutation.edits import EditKind, SmallEdit
+from checker.mutation.edits import SmallEdit
+from checker.mutation.kinds import EditKind
+from checker.mutation.swaps import swapped_parts
 
 _MOST_TEXT = 60
 GUESSES = (Claim.LOOSE_END, Claim.UNEVEN, Claim.UNREAD, Claim.UNSET)  # that no flight speaks for
@@ -67,6 +69,9 @@ def _change_text(change: SmallEdit) -> str:
         return "leave it out"
     if change.kind is EditKind.LINE:
         return f"add `{change.new.strip()}` behind it"
+    if change.kind is EditKind.SWAP:
+        one, other = swapped_parts(change.old, change.new)
+        return f"exchange `{_short(one)}` here and `{_short(other)}` in line {change.line + change.old.count(chr(10))}"
     return f"change `{_short(change.old)}` to `{_short(change.new)}`"
 
 

@@ -25,7 +25,8 @@ from checker.culprit import is_of_values
 from checker.losses import Limit
 from checker.mission import Mission
 from checker.mutation.additions import with_additions
-from checker.mutation.edits import OUTSIDE, EditSite, SmallEdit, sites_of
+from checker.mutation.edits import EditSite, SmallEdit, sites_of
+from checker.mutation.kinds import OUTSIDE
 from checker.mutation.mission_edits import agent_with
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
 from checker.oracle import Verdict, judge_losses

@@ -22,7 +22,8 @@ from checker.counterfactual.numbers import (
 )
 from checker.counterfactual.usage import Usage
 from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, is_asked_for, sign_of
-from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import DROPPED, EditKind
 from checker.mutation.missing_lines import is_namesake, said_of
 
 _TWICE = re.compile(r"([A-Za-z_][\w.]*)\s*[+*]\s*\1")  # one name, added to itself or multiplied
@@ -43,6 +44,7 @@ _SIDE = 0.1  # when it is tried whether a resource is consumed or produced: ther
 _BETWEEN = 0.5  # when a number is tried twice or half as large, where it is not known which is better
 _OTHER_WAY = 0.9  # when a number is changed the way that demands more
 _SWAPPED = 0.4  # when arguments change places: few lines have such
+_SWAP = 2.0  # of two lines that have changed places
 _LATE = 3.0  # later by so much: what is tried when all likelier edits have been
 _DROP = 3.0
 _KINDS = 0.5  # how much the number of lines counts at which an edit of the kind can be made
@@ -68,6 +70,7 @@ _EDGE = 2.0  # odds that few missions fail for a number, not for what is wrong i
 
 _ALIKE, _DOUBLED = 1.5, 0.7  # odds of a part that leaves the same name on both sides, or one name once
 _WISHED = 5.5  # of another wish: it is the user's
+_UNKNOWN = 3.0  # odds of a wish for what an object is made of, where none is made of what was wished
 _QUOTIENT = 3.0  # of a quotient the other way round: its unit would be another
 _RESULT = 2.2  # of a result that changes places: other numbers by far come of it, and any limit is kept or none
 _PROMISED = 4.5  # of another property: what it promises less always keeps
@@ -105,6 +108,8 @@ def _structural(edit: SmallEdit, usage: Usage) -> float:
 
 
 def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
+    if (edit.begin, edit.new) in site.wanted:
+        return _UNMIXED
     match edit.kind:
         case EditKind.RELATION if usage.orders.rights(edit, site):
             return 0.0
@@ -134,7 +139,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.ARGUMENTS if is_result_moved(edit, site):
             return _RESULT + usage.formulas.place_odds(edit, site)
         case EditKind.GOAL:
-            return _WISHED
+            return _WISHED - _UNKNOWN * usage.is_of_object(edit)
         case EditKind.PREDICATE if edit.old in EVENTS:
             return 3.0 - _FLOW * (not usage.counts[edit.new])
         case EditKind.PREDICATE:
@@ -152,6 +157,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return told + (_HANDED_ON if is_namesake(edit.new) else _LINE)
         case EditKind.MISSION:
             return 3.0
+        case EditKind.SWAP:
+            return _SWAP
         case EditKind.TERM:
             if _TWICE.fullmatch(edit.old):
                 return _REPEATED
@@ -193,6 +200,8 @@ def first_edits(site: EditSite, usage: Usage) -> list[tuple[float, SmallEdit]]:
 
 
 def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
+    if (edit.begin, edit.new) in site.wanted:
+        return -1.0  # seen without any flight
     match edit.kind:
         case EditKind.MISSION:
             return -1.0 if edit.old == "0" else None  # tried last
@@ -262,6 +271,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return _LATE if sets_value(edit.old) else 0.3
         case EditKind.DROPPED_BRANCH:
             return 1.0
+        case EditKind.SWAP:
+            return _SWAPPED + _LATER * usage.passing
         case EditKind.RELATION if usage.orders.rights(edit, site):
             return -1.0  # seen without any flight
         case EditKind.RELATION:

@@ -21,7 +21,8 @@ from checker.counterfactual.orders import is_order_turned
 from checker.counterfactual.smallness import cost_of, delay_of, first_edits, is_loosening, is_probe
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import Usage
-from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import EditKind
 from checker.oracle import Verdict
 
 _NEARNESS = 0.3  # of the distance, beside how late an edit is tried at its line
@@ -183,7 +184,7 @@ def try_out(
             at = (_REACH if candidate.site.is_number else _NEARNESS) * far + delay - candidate.told
             if is_spoken and is_order_turned(edit, candidate.site):
                 at = min(at, _TURNED)
-            else:
+            elif edit.kind is not EditKind.SWAP:
                 at += _TURN * earlier[edit.begin] + _PLACE * len(earlier) * (edit.kind is not EditKind.VALUE)
                 earlier[edit.begin] += 1
             if edit.kind is EditKind.NAME and not usage.is_fitting(edit, candidate.site):

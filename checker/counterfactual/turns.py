@@ -12,7 +12,8 @@ from itertools import count
 
 from checker.counterfactual.candidates import Candidate
 from checker.counterfactual.word_odds import is_comparison_turned
-from checker.mutation.edits import EditKind, EditSite, SmallEdit, inverse_of
+from checker.mutation.edits import EditSite, SmallEdit, inverse_of
+from checker.mutation.kinds import EditKind
 
 _BESIDE = 0.5  # how much of the wait is left for an edit of a line beside one that has helped
 _IDLE = 0.8  # how much later the edits of a line are tried that has no part in the failure

@@ -16,9 +16,11 @@ from checker.counterfactual.numbers import is_raised
 from checker.counterfactual.orders import Orders
 from checker.counterfactual.siblings import Siblings
 from checker.counterfactual.word_odds import SAMPLED, TRUTHS, sign_of, sort_of, sum_of
-from checker.mutation.edits import EditKind, EditSite, SmallEdit, inverse_of
+from checker.mutation.edits import EditSite, SmallEdit, inverse_of
+from checker.mutation.kinds import EditKind
 
 _LABEL = re.compile(r"\s+(\w+)\s*\)")
+_MADE = re.compile(r"\bnew\s+\w+\s*\(([^()]*)\)")
 _WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
 _NAMED = 2.0  # odds of the comparison that a constant's name asks for
 _MENTION, _ALIKE, _DOUBLED = 2.0, 1.5, 0.7  # odds that what lacks a mention is meant, or the same name on both sides
@@ -28,6 +30,7 @@ _PRESENT, _MOST_PRESENT = 0.2, 3  # for each line that speaks of a predicate, an
 _AGREES = 1.5  # odds that both sides of `==` are of one type
 _TURNED = 2.5  # odds of a relation of two named tokens that says the same with the tokens swapped
 _UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
+_MERGED = 2.5  # of two objects that have a member in common then
 _SUM = 1.5  # how much the odds count of a sign that stands between the same words elsewhere
 _RARE = 0.3  # all other words
 # Odds of a change that puts the dimensions of a line right, and of one that makes them odd; other kinds tell nothing.
@@ -61,7 +64,12 @@ class Usage:
     siblings: Siblings
     limits: TimeLimits
     dimensions: Dimensions
+    made: Container[str] = ()  # the numbers and names that objects are made of
     passing: float = 0.0
+
+    def is_of_object(self, edit: SmallEdit) -> bool:
+        """Whether objects are made of what an edit writes, and none of what stood there."""
+        return edit.new.strip('"') in self.made and edit.old.strip('"') not in self.made
 
     def is_swapped(self, edit: SmallEdit) -> bool:
         """Whether a constant stands where another one is missed, or the range of a draw where a number is meant."""
@@ -136,6 +144,8 @@ class Usage:
         """How much better a name fits into a line than the old one: by what lacks a mention, and by likeness."""
         if edit.new in self.sampled or self.mentions.unsets(edit, site):
             return _UNMEANT
+        if self.mentions.merges(edit, site):
+            return -_MERGED
         weight = _MENTION if edit.kind is EditKind.NAME else 0.5 * _MENTION
         gain = weight * self.mentions.gain(edit, site)
         gain += _AGREES * ((edit.begin, edit.new) in site.agreeing)
@@ -189,8 +199,9 @@ def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0, is_late: bool =
     named = {site.named for site in sites if site.named}
     mentions = Mentions(sites, named, counts)
     directions = Directions(sites, named, is_late=is_late)
+    made = {one.strip(' "') for site in sites for found in _MADE.findall(site.text) for one in found.split(",")}
     lines = (Formulas(sites, named), Orders(sites), Siblings(sites), TimeLimits(sites))
     affinity, dimensions = Affinity(sites, named), Dimensions(sites, named)
     return Usage(
-        counts, named, kinds, meant, sampled, affinity, sums, mentions, directions, *lines, dimensions, passing
+        counts, named, kinds, meant, sampled, affinity, sums, mentions, directions, *lines, dimensions, made, passing
     )

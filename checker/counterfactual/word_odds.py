@@ -3,7 +3,8 @@
 import re
 
 from checker.counterfactual.affinity import WORD
-from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import EditKind
 from compiler.program import TOKEN_TIMES
 
 EVENTS = ("consume", "produce")

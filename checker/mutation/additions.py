@@ -9,7 +9,8 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import EditKind
 from compiler.program import TOKEN_TIMES
 
 _WORD = re.compile(r"[A-Za-z_]\w*")

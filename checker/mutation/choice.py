@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from checker.mutation.edits import REPAIRS, EditKind, EditSite, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import REPAIRS, EditKind
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -4,16 +4,18 @@ An edit is a fault where the model was right, and a repair where it was wrong: `
 counterfactual trial the other.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 from typing import Any
 
 from checker.mutation.agreement import Agreement
+from checker.mutation.copies import copied_names
 from checker.mutation.exchanges import exchangeable, exchanged, misplaced, recast, shortened
+from checker.mutation.kinds import EditKind
 from checker.mutation.missing_lines import missing_lines
 from checker.mutation.names import other_names, other_points, other_tokens, other_values, tautologies
 from checker.mutation.scope import LineScope, Scopes
+from checker.mutation.swaps import swapped_branches, swapped_rows
 from nddl_lang.semantics.constraints import CONSTRAINTS
 from nddl_lang.semantics.relations import RELATIONS
 from nddl_lang.syntax.includes import LIBRARY, LoadedModules
@@ -60,38 +62,6 @@ _OTHER_NAMES = {"leq": ("eq", "lt"), "lt": ("leq", "eq"), "eq": ("leq", "neq"), 
 _OUTSIDE = LineScope()  # of a rule
 
 
-class EditKind(StrEnum):
-    """What an edit changes."""
-
-    CONSTANT = "constant"
-    OFF_BY_ONE = "off by one"
-    LIMIT = "limit"  # a constant's name, for another
-    RELATION = "relation"
-    COMPARISON = "comparison"
-    SIGN = "sign"
-    ARGUMENTS = "swapped arguments"
-    NAME = "name"  # a variable, for another of its type
-    VALUE = "value"  # of an enumeration, or a truth value
-    POINT = "time point"  # the start of a token, for its end
-    TOKEN = "token"  # one token of a rule, for another
-    PREDICATE = "predicate"  # of a child
-    MISSION = "mission file"
-    GOAL = "goal"  # what a goal asks for
-    PROMISE = "property"  # what a property of the mission promises
-    DROPPED_CONSTRAINT = "dropped constraint"
-    DROPPED_BRANCH = "dropped branch"
-    OPERATOR = "operator"  # a product for a sum
-    TERM = "term"  # of a sum or product, left out
-    FORMULA = "formula"  # other operators of an expression
-    MISSING = "missing term"  # a term or factor more, of what nothing reads
-    LINE = "missing line"  # a line more, behind another one
-
-
-OUTSIDE = (EditKind.MISSION, EditKind.GOAL, EditKind.PROMISE)  # of any model
-DROPPED = (EditKind.DROPPED_CONSTRAINT, EditKind.DROPPED_BRANCH)
-REPAIRS = (EditKind.TERM, EditKind.FORMULA, EditKind.MISSING, EditKind.LINE)  # tried as causes, and not made as faults
-
-
 @dataclass(frozen=True, slots=True)
 class SmallEdit:
     """Characters `begin` to `end` of a file give way to `new`; `file` is its real path, `line` where that begins."""
@@ -112,7 +82,8 @@ class EditSite:
     A branch has the lines of its condition. `scope` are the lines of the whole rule. `named` is the global variable
     that is set here, a number if `is_number`; `is_rule`: it is the head of a rule, for which something may be missing.
     `begin` is its offset. `agreeing` edits, each by its offset and what it writes, give both sides of `==` one type.
-    `is_apart`: the two can hardly be compared. `coded` is the constraint of the project's own that it calls, in Python.
+    `is_apart`: the two can hardly be compared. `wanted` edits, given alike, make of a copy what it was copied for.
+    `coded` is the constraint of the project's own that it calls, in Python.
     """
 
     file: str
@@ -130,6 +101,7 @@ class EditSite:
     coded: str = ""
     agreeing: frozenset[tuple[int, str]] = frozenset()
     is_apart: bool = False
+    wanted: frozenset[tuple[int, str]] = frozenset()
 
     def holds(self, file: str, line: int) -> bool:
         """Whether a place is one of its lines."""
@@ -161,18 +133,24 @@ def sites_of(loaded: LoadedModules) -> list[EditSite]:
         if isinstance(one, VariableDecl)
         for declarator in one.declarators
     }
-    reader = _Reader(loaded, names)
+    reader = _Reader(loaded, names, swapped_rows(own))
     return [site for statement in own for site in reader.sites(statement)]
 
 
 class _Reader:
     """Reads the sites of a model whose numeric global variables are `names`."""
 
-    def __init__(self, loaded: LoadedModules, names: dict[str, str]) -> None:
+    def __init__(
+        self, loaded: LoadedModules, names: dict[str, str], rows: dict[Any, list[tuple[Span, str, bool]]]
+    ) -> None:
+        self._rows = rows
         self._files = {source: str(real_path(path)) for source, path in loaded.paths.items()}
         self._limits = sorted(name for name, kind in names.items() if kind in _NUMBERS)
         self._scopes = Scopes(loaded.module.statements, self._limits)
         self._types = Agreement(names)
+        self._copied: frozenset[tuple[int, str]] = (
+            frozenset()
+        )  # of the rule that is read, what was not changed in copies
 
     def sites(self, statement: Any) -> Iterator[EditSite]:
         """The sites of a top-level statement."""
@@ -193,6 +171,7 @@ class _Reader:
                     is_rule=True,
                 )
                 names = self._scopes.of_predicate(owner.name, predicate.name)
+                self._copied = frozenset((span.begin, name) for span, name in copied_names(body))
                 yield from self._body(body, rule, statement.span, names)
             case ClassDecl(name=owner, members=members):
                 for member in members or ():
@@ -200,7 +179,11 @@ class _Reader:
                         names = self._scopes.of_predicate(owner.name, member.name.name)
                         yield from self._body(member.body, f"{owner.name}.{member.name.name}", member.span, names)
             case VariableDecl(declarators=declarators):
-                yield self._site(statement, "", statement.span, (statement,), declarators[-1].name.name)
+                rows = self._rows.get(statement, ())
+                more = [self._edit(EditKind.SWAP, span, new) for span, new, _ in rows]
+                self._copied = frozenset((span.begin, new) for span, new, is_wanted in rows if is_wanted)
+                names = self._scopes.outside
+                yield self._site(statement, "", statement.span, (statement,), declarators[-1].name.name, more, names)
             case Assignment(target=target, value=value):
                 yield self._site(statement, "", statement.span, (value,), target.parts[-1].name)
             case CallConstraint() | ExprConstraint() | Relation() | GoalStatement():
@@ -212,8 +195,9 @@ class _Reader:
         for statement in body:
             match statement:
                 case IfStatement(condition=condition, then=then, otherwise=otherwise):
+                    swaps = [self._edit(EditKind.SWAP, *each) for each in swapped_branches(statement)]
                     branches = [self._dropped(one[0].span.to(one[-1].span)) for one in (then, otherwise) if one]
-                    yield self._site(condition, rule, whole, (condition,), more=branches, names=names)
+                    yield self._site(condition, rule, whole, (condition,), more=[*branches, *swaps], names=names)
                     for branch in (then, otherwise or ()):
                         yield from self._body(branch, rule, whole, names)
                 case Foreach(body=inner):
@@ -235,7 +219,7 @@ class _Reader:
         whole: Span,
         roots: tuple[Any, ...],
         named: str = "",
-        more: Iterable[SmallEdit] = (),
+        more: Sequence[SmallEdit] = (),
         names: LineScope = _OUTSIDE,
     ) -> EditSite:
         edits = [edit for root in roots for edit in self._edits(root, names)]
@@ -257,6 +241,7 @@ class _Reader:
             is_number=named in self._limits,
             coded=node.name.name if isinstance(node, CallConstraint) and node.name.name not in CONSTRAINTS else "",
             agreeing=self._agreeing(node, names, edits),
+            wanted=frozenset((edit.begin, edit.new) for edit in (*edits, *more)) & self._copied,
             is_apart=isinstance(node, ExprConstraint) and self._types.is_apart(node.expression, names),
         )
 

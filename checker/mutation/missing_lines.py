@@ -14,6 +14,12 @@ from nddl_lang.syntax.nodes import Relation
 from nddl_lang.text.source import Span
 
 _OWN_END = re.compile(r"(?<![\w.])(?:end|duration)\b")
+_OTHER_TIME = re.compile(r"\b\w+\.(?:start|end)\b")
+_ENDING = re.compile(
+    r"^\s*(?:ends|equals|meets)\s*\(|\bthis\s+(?:ends|equals|meets)\b|\b(?:ends|equals|met_by)\s+this\b"
+)
+_USE = re.compile(r"\s*\w+\.time\s*==")
+_COMMENT = re.compile(r"//[^\n]*")
 _ADDED = re.compile(r" \w+\.(\w+) == (?:\w+\.)*(\w+);")
 _ORDERED = re.compile(r"\b(\w+)\s+(?:before|after|meets|met_by)\s+(\w+)\s*;")
 _LATER = re.compile(r"\b(\w+)\s*\.\s*start\s*>=?\s*(\w+)\s*\.\s*end\b|\b(\w+)\s*\.\s*end\s*<=?\s*(\w+)\s*\.\s*start\b")
@@ -34,7 +40,7 @@ def missing_lines(statement: Any, rule: Span, names: LineScope, made: dict[str, 
             if names.is_value(kind) and not re.search(rf"\b{label}\s*\.\s*{parameter}\b", rule.text):
                 for value in _values(label, kind, names):
                     yield behind, f" {label}.{parameter} == {value};"
-        if not shape.is_event and not _OWN_END.search(rule.text):
+        if not shape.is_event and not is_ended(rule.text):
             yield behind, f" {label}.end == end;"
         yield from ((behind, f" {before} before {label};") for before, after in _gaps(rule.text) if after == label)
 
@@ -49,6 +55,19 @@ def _gaps(rule: str) -> list[tuple[str, str]]:
         groups |= dict.fromkeys(joined, joined)
     gaps = [(one, other) for one, other in pairwise(children) if other not in groups[one]]
     return gaps if len(children) >= _FEWEST and len(gaps) == 1 else []
+
+
+def is_ended(rule: str) -> bool:
+    """Whether a line of a rule says when its token ends: an upper bound alone only says when it must be over.
+
+    What a resource is used at the end of is told by that end, and does not tell it.
+    """
+    for line in re.split("[;{}]", _COMMENT.sub("", rule)):
+        if _OWN_END.search(line) and ("==" in line or _OTHER_TIME.search(line)) and not _USE.match(line):
+            return True
+        if _ENDING.search(line):
+            return True
+    return False
 
 
 def is_namesake(added: str) -> bool:

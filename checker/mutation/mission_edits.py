@@ -11,11 +11,12 @@ from pathlib import Path
 
 from checker.mission import Mission, parse_mission
 from checker.mission_table import MissionText
-from checker.mutation.edits import EditKind, EditSite, SmallEdit, edited
+from checker.mutation.edits import EditSite, SmallEdit, edited
+from checker.mutation.kinds import EditKind
 from compiler.program import TOKEN_TIMES
 from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Source
-from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.configuration import AgentConfiguration, GoalConfiguration
 
 _PARAMETERS = "parameters"
 _NUMBER = re.compile(r"(?<![\w.])\d+(\.\d+)?")
@@ -113,8 +114,20 @@ def _asked(mission: Mission, number: int) -> Iterator[EditSite]:
                 found += [str(value // part if isinstance(value, int) else value / part) for part in (2, 10)]
             case _:
                 pass
-        others = [one for one in dict.fromkeys(found) if one not in (text.value_span(path).text, "0")]
-        yield _site(text, path, EditKind.GOAL, others)
+        own = text.value_span(path)
+        is_copy = any(_asks_as(one, goal) for one in goals[:number])
+        fresh: list[str] = []
+        if is_copy and isinstance(value, int) and not isinstance(value, bool):
+            asked = {dict(one.parameters).get(key) for one in goals if one.predicate == goal.predicate}
+            fresh = [str(one) for one in (value + 1, value - 1) if one not in asked]
+        others = [one for one in dict.fromkeys((*fresh, *found)) if one not in (own.text, "0")]
+        site = _site(text, path, EditKind.GOAL, others)
+        yield replace(site, wanted=frozenset((own.begin, one) for one in fresh))
+
+
+def _asks_as(one: GoalConfiguration, other: GoalConfiguration) -> bool:
+    """Whether two goals ask for the same, whenever it be: one may be a copy."""
+    return (one.timeline, one.predicate, one.parameters) == (other.timeline, other.predicate, other.parameters)
 
 
 def _site(text: MissionText, path: tuple[str | int, ...], kind: EditKind, values: Sequence[str]) -> EditSite:

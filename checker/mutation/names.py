@@ -28,6 +28,9 @@ def other_names(node: Any, names: LineScope) -> Iterator[tuple[Span, str]]:
     if not isinstance(node, PathExpr):
         return
     parts = _written(node.parts)
+    if parts[0] in names.objects and len(parts) == 1 and names.owner:
+        yield from ((node.span, other) for other in names.other_objects(parts[0]))
+        return
     kind = names.type_of(parts) or names.enum_of(parts) or ("float" if parts[0] in names.constants else "")
     if names.is_value(kind):
         is_constant = len(parts) == 1 and parts[0] in names.constants

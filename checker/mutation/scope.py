@@ -6,7 +6,16 @@ from typing import Any
 
 from nddl_lang.semantics.natives import NATIVE_CLASSES
 from nddl_lang.semantics.schema import Class
-from nddl_lang.syntax.nodes import ClassDecl, EnumDecl, PathExpr, PredicateDecl, Relation, TypedefDecl, VariableDecl
+from nddl_lang.syntax.nodes import (
+    ClassDecl,
+    EnumDecl,
+    NewExpr,
+    PathExpr,
+    PredicateDecl,
+    Relation,
+    TypedefDecl,
+    VariableDecl,
+)
 
 _NUMBERS = ("int", "float")
 _TRUTH = "bool"
@@ -26,7 +35,8 @@ class Shape:
 class LineScope:
     """What a line may name: variables of its rule and parameters, with their types, and tokens that were made before.
 
-    `constants` are the numbers of the model.
+    `constants` are the numbers of the model, `objects` what it makes of classes, each with its class; `members` are the
+    variables of classes.
     """
 
     owner: str = ""
@@ -34,6 +44,8 @@ class LineScope:
     tokens: Mapping[str, Shape] = field(default_factory=dict)
     constants: tuple[str, ...] = ()
     enums: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    objects: Mapping[str, str] = field(default_factory=dict)
+    members: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
 
     def type_of(self, parts: tuple[str, ...]) -> str:
         """The type of a variable as it is written; empty where it is none of a rule."""
@@ -42,6 +54,8 @@ class LineScope:
                 return self.variables.get(name, "")
             case (label, name) if label in self.tokens:
                 return self.tokens[label].parameters.get(name, "")
+            case (label, name) if label in self.variables:
+                return self.members.get(self.variables[label], {}).get(name, "")
             case _:
                 return ""
 
@@ -61,8 +75,15 @@ class LineScope:
         yield from (name for name, other in self.variables.items() if _fits(other, kind))
         for label, token in self.tokens.items():
             yield from (f"{label}.{name}" for name, other in token.parameters.items() if _fits(other, kind))
+        for label, owner in self.variables.items():
+            yield from (f"{label}.{name}" for name, other in self.members.get(owner, {}).items() if _fits(other, kind))
         if kind in _NUMBERS:
             yield from self.constants
+
+    def other_objects(self, name: str) -> Iterator[str]:
+        """The other objects of the class that an object is made of."""
+        kind = self.objects.get(name)
+        yield from (other for other, known in self.objects.items() if known == kind and other != name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +105,7 @@ class Scopes:
         self._enums: dict[str, tuple[str, ...]] = {}
         self._constants = tuple(constants)
         self._typedefs: dict[str, str] = {}
+        self._objects: dict[str, str] = {}
         for one in statements:
             match one:
                 case ClassDecl(members=members, base=base) if members is not None:
@@ -99,12 +121,27 @@ class Scopes:
                     self._enums[one.name.name] = tuple(value.name for value in one.values)
                 case VariableDecl():
                     self._globals |= self._declared((one,))
+                    self._objects |= {
+                        each.name.name: each.initialiser.class_name.name
+                        for each in one.declarators
+                        if isinstance(each.initialiser, NewExpr)
+                    }
                 case _:
                     pass
+        self._members = {
+            owner: {name: kind for one in reversed(self._line(owner)) for name, kind in one.members.items()}
+            for owner in self._classes
+        }
 
     def of_predicate(self, owner: str, predicate: str) -> LineScope:
         """What the first line of a rule may name."""
-        return LineScope(owner, self._parameters(owner, predicate), {}, self._constants, self._enums)
+        variables = self._parameters(owner, predicate)
+        return LineScope(owner, variables, {}, self._constants, self._enums, self._objects, self._members)
+
+    @property
+    def outside(self) -> LineScope:
+        """What a line of no rule may name."""
+        return LineScope(enums=self._enums, objects=self._objects)
 
     def after(self, names: LineScope, statement: Any) -> LineScope:
         """What the line after a statement may name."""
@@ -122,7 +159,7 @@ class Scopes:
         *holders, predicate = (part.name for part in path.parts)
         owner = names.owner
         for holder in holders if holders != [_OWN] else ():
-            members = {name: kind for one in reversed(self._line(owner)) for name, kind in one.members.items()}
+            members = self._members.get(owner, {})
             owner = names.variables.get(holder) or members.get(holder) or self._globals.get(holder) or holder
         mine = self._parameters(owner, predicate)
         known = sorted({name for one in self._line(owner) for name in one.predicates} - {predicate})

@@ -110,7 +110,9 @@ def study(folder: Path, fault: Fault, number: int, missions: int, flights: int) 
     """Lay a fault out, fly it, and look for its lines among the causes."""
     place = _OUT / folder.resolve().name / f"{number:03}"
     shutil.rmtree(place, ignore_errors=True)
-    shutil.copytree(folder, place, ignore=shutil.ignore_patterns("faults.toml", "hand.toml", "variants", "nddlc-report"))
+    shutil.copytree(
+        folder, place, ignore=shutil.ignore_patterns("faults.toml", "hand.toml", "variants", "nddlc-report")
+    )
     for name, text in fault.texts.items():
         (place / name).write_text(text)
     changed, gone = set[tuple[str, int]](), set[tuple[str, int]]()

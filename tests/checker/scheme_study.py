@@ -16,7 +16,8 @@ from checker.counterfactual.search import sites_in
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.choice import Mutant
-from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import EditKind
 from checker.yardstick import TOP, Fate, MutantReport, measure_mutant, open_flyer, prepare
 from nddl_lang.text.read import real_path
 

@@ -6,7 +6,8 @@ import pytest
 
 from checker.counterfactual.smallness import cost_of
 from checker.counterfactual.usage import usage_of
-from checker.mutation.edits import EditKind, sites_of
+from checker.mutation.edits import sites_of
+from checker.mutation.kinds import EditKind
 from checker.mutation.variant import load_graph
 from tests.checker.checked import faults_of
 

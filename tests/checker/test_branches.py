@@ -9,7 +9,8 @@ from checker.counterfactual.branches import uneven_branches
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.smallness import cost_of
 from checker.counterfactual.usage import usage_of
-from checker.mutation.edits import EditKind, sites_of
+from checker.mutation.edits import sites_of
+from checker.mutation.kinds import EditKind
 from checker.mutation.variant import load_graph
 from compiler.lower import compile_model
 from nddl_lang.analysis import analyse_file

@@ -6,7 +6,8 @@ import pytest
 
 from checker.counterfactual.bounds import sets_value
 from checker.mutation.choice import mutants_of
-from checker.mutation.edits import REPAIRS, EditKind, EditSite, SmallEdit, edited, sites_of
+from checker.mutation.edits import EditSite, SmallEdit, edited, sites_of
+from checker.mutation.kinds import REPAIRS, EditKind
 from checker.mutation.variant import load_graph, open_over, with_edit
 
 MODEL = """class T extends Timeline { predicate P { int n; n <= 9; } }

@@ -17,7 +17,8 @@ from checker.counterfactual.trials import Missions
 from checker.culprit import culprit_of
 from checker.faults import faults_of
 from checker.mission import read_mission
-from checker.mutation.edits import EditKind, SmallEdit
+from checker.mutation.edits import SmallEdit
+from checker.mutation.kinds import EditKind
 from checker.oracle import Judgement, Verdict
 from checker.sampling.seeds import mission_seed
 from runtime.executive.configuration import AgentConfiguration

@@ -10,7 +10,8 @@ from checker.counterfactual.moments import with_durations
 from checker.counterfactual.smallness import cost_of, delay_of
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import Usage, usage_of
-from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
+from checker.mutation.edits import EditSite, SmallEdit, sites_of
+from checker.mutation.kinds import EditKind
 from checker.mutation.variant import load_graph
 from compiler.lower import compile_model
 from nddl_lang.analysis import analyse_file

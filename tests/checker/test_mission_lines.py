@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from checker.mission import read_mission
-from checker.mutation.edits import EditKind
+from checker.mutation.kinds import EditKind
 from checker.mutation.mission_edits import agent_with, mission_sites
 from nddlc.main import run
 from tests.checker.checked import faults_of

@@ -6,7 +6,8 @@ import pytest
 
 from checker.counterfactual.smallness import cost_of, delay_of
 from checker.counterfactual.usage import usage_of
-from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
+from checker.mutation.edits import EditSite, SmallEdit, sites_of
+from checker.mutation.kinds import EditKind
 from checker.mutation.variant import load_graph
 
 pytestmark = pytest.mark.once

@@ -24,7 +24,7 @@ from checker.graph import NodeKind
 from checker.losses import GoalFate, Limit
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.mutation.edits import EditKind
+from checker.mutation.kinds import EditKind
 from checker.oracle import Judgement, Verdict
 from checker.proofs.conflict import Finding
 from checker.report.document import json_report

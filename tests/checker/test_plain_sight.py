@@ -12,7 +12,8 @@ from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import Usage, usage_of
 from checker.counterfactual.word_odds import compared
 from checker.mission import read_mission
-from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
+from checker.mutation.edits import EditSite, SmallEdit, sites_of
+from checker.mutation.kinds import EditKind
 from checker.mutation.mission_edits import mission_sites
 from checker.mutation.variant import load_graph
 

@@ -7,7 +7,8 @@ import pytest
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.ranking import Claim, rank
 from checker.counterfactual.trials import LineTrial, Loose, Trials, TrialsEnd
-from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import EditKind
 
 
 def candidate(line: int, text: str) -> Candidate:

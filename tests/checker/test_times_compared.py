@@ -8,7 +8,8 @@ from checker.counterfactual.moments import with_durations
 from checker.counterfactual.smallness import cost_of, delay_of
 from checker.counterfactual.usage import Usage, usage_of
 from checker.mutation.additions import with_additions
-from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
+from checker.mutation.edits import EditSite, SmallEdit, sites_of
+from checker.mutation.kinds import EditKind
 from checker.mutation.variant import load_graph
 
 pytestmark = pytest.mark.once

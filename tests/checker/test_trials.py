@@ -15,7 +15,8 @@ from checker.counterfactual.smallness import cost_of, delay_of
 from checker.counterfactual.trials import Missions, Trials, Try, try_out
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import usage_of
-from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
+from checker.mutation.edits import EditSite, SmallEdit, sites_of
+from checker.mutation.kinds import EditKind
 from checker.mutation.variant import load_graph
 from checker.oracle import Judgement, Verdict
 from runtime.executive.outcome import Event, EventKind, Outcome, Phase, PropertyFate

@@ -6,7 +6,8 @@ from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import usage_of
 from checker.mission import read_mission
-from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
+from checker.mutation.edits import EditSite, SmallEdit, sites_of
+from checker.mutation.kinds import EditKind
 from checker.mutation.mission_edits import agent_with, mission_sites
 from checker.mutation.variant import load_graph
 

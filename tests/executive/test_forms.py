@@ -7,7 +7,7 @@ import pytest
 
 from checker.counterfactual.search import sites_in
 from checker.mission import read_mission
-from checker.mutation.edits import OUTSIDE, REPAIRS, EditKind
+from checker.mutation.kinds import OUTSIDE, REPAIRS, EditKind
 from runtime.user.limit import WATCH
 from tests.executive.mutants.campaign import Campaign, departures
 from tests.executive.mutants.flights import FILES, SlowError, at_most, edit_of

@@ -24,7 +24,8 @@ from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.mutation.edits import REPAIRS, EditKind, EditSite, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import REPAIRS, EditKind
 from checker.mutation.variant import open_over, with_edit
 from checker.pinned import pinned
 from runtime.executive.configuration import AgentConfiguration
