@@ -11,6 +11,7 @@ from checker.mutation.edits import EditSite, SmallEdit, inverse_of
 from checker.mutation.kinds import EditKind
 
 _LATER = re.compile(r"\s*(\w+)\.start\s*[<>]=?\s*(\w+)\.end\b.*;", re.DOTALL)
+_SINCE_START = re.compile(r"\s*(\w+)\.start\s*<=?\s*(\w+)\.start\s*\+.*;", re.DOTALL)
 _ORDERED = re.compile(r"\s*(\w+)\s+(before|after|meets|met_by)\s+(\w+)\s*;")
 _TURNED = ("after", "met_by")
 
@@ -20,7 +21,10 @@ class Orders:
 
     def __init__(self, sites: Sequence[EditSite]) -> None:
         self._first: dict[object, set[tuple[str, str]]] = defaultdict(set)
+        self._related: dict[object, set[tuple[str, str]]] = defaultdict(set)  # by relations
         for site in sites:
+            if site.rule and (order := _order(site.text)) is not None:
+                self._related[site.file, site.scope].add(order)
             if site.rule and (found := _LATER.fullmatch(site.text)):
                 self._first[site.file, site.scope].add((found.group(2), found.group(1)))
 
@@ -29,6 +33,22 @@ class Orders:
         known = self._first.get((site.file, site.scope), ())
         before, after = (_order(text) for text in (site.text, site.after(edit)))
         return before is not None and after in known and before[::-1] == after and before not in known
+
+    def denies(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether a relation says the contrary of such a limit after an edit, and said the same before."""
+        known = self._first.get((site.file, site.scope), ())
+        before, after = (_order(text) for text in (site.text, site.after(edit)))
+        return before is not None and before in known and before[::-1] == after
+
+    def counts_from_end(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether the wait of a token for the one before it counts from the end of that one after an edit.
+
+        From its start counts how long both take together, and few limit that by the start of the second.
+        """
+        before, after = _SINCE_START.fullmatch(site.text), _LATER.fullmatch(site.after(edit))
+        if before is None or after is None or before.groups() != after.groups():
+            return False
+        return before.groups()[::-1] in self._related.get((site.file, site.scope), ())
 
 
 def is_order_turned(edit: SmallEdit, site: EditSite) -> bool:

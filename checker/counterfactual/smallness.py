@@ -79,12 +79,16 @@ _VALUE = 1.7  # of another value: few lines have one, so their number says littl
 _CASE = 1.0  # odds that no two conditions of a rule ask for the same value
 _LAST_CASE = 2.0  # odds that no value of an enumeration is for nothing, where all others have their use
 _FREED = 2.0  # odds that a line which alone says what a variable is says it with `==`
+_CONFUSED = 2.0  # odds that two numbers of one variable are not the same
+_DENIED = 2.0  # odds that two lines that agree on an order of tokens are right
 _FLOW = 2.0  # odds that a resource is both consumed and produced
 _NOTHING = 1.0  # odds that a number which has a name is not 0
 
 
 def is_loosening(edit: SmallEdit, site: EditSite) -> bool:
     """Whether an edit takes a demand away altogether, or takes a variable away from the world's draws."""
+    if (edit.begin, edit.new) in site.wanted:
+        return False
     is_comparison = edit.kind is EditKind.COMPARISON
     return (
         edit.kind in DROPPED
@@ -108,7 +112,7 @@ def _structural(edit: SmallEdit, usage: Usage) -> float:
 
 
 def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
-    if (edit.begin, edit.new) in site.wanted:
+    if (edit.begin, edit.new) in site.wanted or usage.orders.counts_from_end(edit, site):
         return _UNMIXED
     match edit.kind:
         case EditKind.RELATION if usage.orders.rights(edit, site):
@@ -116,7 +120,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.NAME | EditKind.POINT | EditKind.TOKEN | EditKind.SIGN if puts_times_right(edit, site):
             return _UNMIXED
         case EditKind.RELATION | EditKind.COMPARISON | EditKind.SIGN:
-            freed = _FREED * usage.mentions.frees(edit, site)
+            freed = _FREED * usage.mentions.frees(edit, site) + _DENIED * usage.orders.denies(edit, site)
             scale = _SENSE * (edit.kind is EditKind.SIGN and usage.formulas.adds_scale(edit, site))
             return 1.0 + scale + _UNUSUAL * usage.odds(edit, site) + freed
         case EditKind.LIMIT:
@@ -127,6 +131,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
             far = 0.0 if site.named and float(edit.old) == 0.0 else octaves(edit)  # who names a number has one
             nothing = _NOTHING * (bool(site.named) and float(edit.old) == 0.0)
+            nothing -= _CONFUSED * usage.distinct.confuses(edit, site)
             nothing -= _WHOLE * is_whole(edit, site) + _UNNAMED * is_of_formula(edit, site)
             nothing += _LIMIT * (usage.affinity.is_limit(site.named) and usage.is_freed(edit, site))
             return 1.0 - nothing + _OCTAVE * far + _DIGIT * (digits(edit.new) - digits(edit.old))
@@ -200,7 +205,7 @@ def first_edits(site: EditSite, usage: Usage) -> list[tuple[float, SmallEdit]]:
 
 
 def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
-    if (edit.begin, edit.new) in site.wanted:
+    if (edit.begin, edit.new) in site.wanted or usage.orders.counts_from_end(edit, site):
         return -1.0  # seen without any flight
     match edit.kind:
         case EditKind.MISSION:

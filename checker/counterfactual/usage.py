@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from checker.counterfactual.affinity import WORD, Affinity, is_kin
 from checker.counterfactual.bounds import Directions
 from checker.counterfactual.dimensions import Dimensions
+from checker.counterfactual.distinct import Distinct
 from checker.counterfactual.formulas import Formulas
 from checker.counterfactual.mentions import Mentions, is_doubled
 from checker.counterfactual.moments import TimeLimits
@@ -63,6 +64,7 @@ class Usage:
     orders: Orders
     siblings: Siblings
     limits: TimeLimits
+    distinct: Distinct
     dimensions: Dimensions
     made: Container[str] = ()  # the numbers and names that objects are made of
     passing: float = 0.0
@@ -200,7 +202,7 @@ def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0, is_late: bool =
     mentions = Mentions(sites, named, counts)
     directions = Directions(sites, named, is_late=is_late)
     made = {one.strip(' "') for site in sites for found in _MADE.findall(site.text) for one in found.split(",")}
-    lines = (Formulas(sites, named), Orders(sites), Siblings(sites), TimeLimits(sites))
+    lines = (Formulas(sites, named), Orders(sites), Siblings(sites), TimeLimits(sites), Distinct(sites))
     affinity, dimensions = Affinity(sites, named), Dimensions(sites, named)
     return Usage(
         counts, named, kinds, meant, sampled, affinity, sums, mentions, directions, *lines, dimensions, made, passing

@@ -21,6 +21,7 @@ _ROUNDED = re.compile(r"\b(?:ceil|floor|round)\s*\(")
 _BARE = re.compile(r"\s*\w+\.start\s*(?:<=|<)\s*(?:\w+\.)?(?:start|end)\s*;")
 _SLACK = re.compile(r"\s*[\w.]+\s*(?:<=|<)\s*[\w.]+\s*\+\s*([A-Za-z_]\w*)\s*;")
 _SAMPLING = "sampledParameter"
+_LASTS = re.compile(r"\s*duration\s*==")
 _POINTS = ("start", "end")
 _MOST_IDLE = 4  # names that nothing reads: where there are more, that says little
 
@@ -34,16 +35,18 @@ def with_additions(sites: Sequence[EditSite]) -> list[EditSite]:
     for site in sites:
         if site.rule and not site.is_rule:
             scopes[site.file, site.scope].append(site)
+    heads = {(site.file, site.scope): site for site in sites if site.is_rule}
     files = {file for file, _ in scopes}
     slacks: dict[str, Counter[str]] = defaultdict(Counter)
     for site in sites:
         if (limit := _SLACK.fullmatch(site.text)) is not None:
             slacks[site.file][limit.group(1)] += 1
     found: dict[EditSite, list[SmallEdit]] = defaultdict(list)
-    for (file, _), lines in scopes.items():
+    for (file, scope), lines in scopes.items():
         near = [one for one in constants if one.file == file or one.file not in files]
         idle = [(one.named, "float" if one.text.startswith("float") else "int", False) for one in near[:_MOST_IDLE]]
         idle += [(name, kind, True) for name, kind in _unread_locals(lines, words)]
+        idle += [(name, kind, True) for name, kind in _unread_inputs(heads.get((file, scope)), lines, words)]
         for site in lines if idle else ():
             for name, kind, is_local in idle:
                 found[site] += _grown(site, name, kind == "float", is_local)
@@ -64,6 +67,16 @@ def _unread_locals(lines: Sequence[EditSite], words: dict[EditSite, list[str]]) 
         is_set = "=" in site.text or bool(others)
         if is_set and all((left := _SET.match(one.text)) and left.group(1) == name for one in others):
             yield name, kind
+
+
+def _unread_inputs(
+    head: EditSite | None, lines: Sequence[EditSite], words: dict[EditSite, list[str]]
+) -> Iterator[tuple[str, str]]:
+    """The numbers that a token brings along and its rule does not speak of, where that simulates how long it lasts."""
+    if head is None or not any(_LASTS.match(site.text) for site in lines):
+        return
+    said = {word for site in lines for word in words[site]}
+    yield from ((name, kind) for name, kind in head.inputs if name not in said)
 
 
 def _grown(site: EditSite, name: str, is_real: bool, is_local: bool) -> Iterator[SmallEdit]:

@@ -1,7 +1,7 @@
 """The body of a rule in; out: what a line sets that another one sets already, and what may be meant in its place.
 
 Who copies a line and forgets to change its name sets one variable twice and another one never: the same parameter of
-another token, or what the other branch of the condition sets.
+another token, or what the other branch of the condition sets. Who writes a condition for what a line says forgets it.
 """
 
 from collections.abc import Iterable, Iterator
@@ -20,12 +20,26 @@ class _Setting:
 
     name: str
     span: Span
+    line: Span
     way: _Way
 
     def goes_with(self, other: "_Setting") -> bool:
         """Whether both may hold at once."""
         ways = dict(self.way)
         return all(ways.get(number, branch) == branch for number, branch in other.way)
+
+
+def said_before(body: Iterable[Any]) -> Iterator[Span]:
+    """Each line that says what a variable is though each branch of a condition says it."""
+    settings = list(_settings(body, ()))
+    for one in settings:
+        inner = [
+            other.way[len(one.way)]
+            for other in settings
+            if other.name == one.name and len(other.way) > len(one.way) and other.way[: len(one.way)] == one.way
+        ]
+        if any((number, not branch) in inner for number, branch in inner):
+            yield one.line
 
 
 def copied_names(body: Iterable[Any]) -> Iterator[tuple[Span, str]]:
@@ -48,8 +62,8 @@ def copied_names(body: Iterable[Any]) -> Iterator[tuple[Span, str]]:
 def _settings(body: Iterable[Any], way: _Way) -> Iterator[_Setting]:
     for statement in body:
         match statement:
-            case ExprConstraint(expression=BinaryExpr(op="==", left=PathExpr(parts=parts, span=span))):
-                yield _Setting(".".join(part.name for part in parts), span, way)
+            case ExprConstraint(expression=BinaryExpr(op="==", left=PathExpr(parts=parts, span=span)), span=line):
+                yield _Setting(".".join(part.name for part in parts), span, line, way)
             case IfStatement(then=then, otherwise=otherwise):
                 yield from _settings(then, (*way, (id(statement), True)))
                 yield from _settings(otherwise or (), (*way, (id(statement), False)))

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from checker.mutation.agreement import Agreement
-from checker.mutation.copies import copied_names
+from checker.mutation.copies import copied_names, said_before
 from checker.mutation.exchanges import exchangeable, exchanged, misplaced, recast, shortened
 from checker.mutation.kinds import EditKind
 from checker.mutation.missing_lines import missing_lines
 from checker.mutation.names import other_names, other_points, other_tokens, other_values, tautologies
 from checker.mutation.scope import LineScope, Scopes
-from checker.mutation.swaps import swapped_branches, swapped_rows
+from checker.mutation.swaps import Rows, swapped_branches, swapped_rows
 from nddl_lang.semantics.constraints import CONSTRAINTS
 from nddl_lang.semantics.relations import RELATIONS
 from nddl_lang.syntax.includes import LIBRARY, LoadedModules
@@ -83,6 +83,7 @@ class EditSite:
     that is set here, a number if `is_number`; `is_rule`: it is the head of a rule, for which something may be missing.
     `begin` is its offset. `agreeing` edits, each by its offset and what it writes, give both sides of `==` one type.
     `is_apart`: the two can hardly be compared. `wanted` edits, given alike, make of a copy what it was copied for.
+    `inputs` are the numbers, each with its type, that the token of a rule brings along, told at its head.
     `coded` is the constraint of the project's own that it calls, in Python.
     """
 
@@ -102,6 +103,7 @@ class EditSite:
     agreeing: frozenset[tuple[int, str]] = frozenset()
     is_apart: bool = False
     wanted: frozenset[tuple[int, str]] = frozenset()
+    inputs: tuple[tuple[str, str], ...] = ()
 
     def holds(self, file: str, line: int) -> bool:
         """Whether a place is one of its lines."""
@@ -140,9 +142,7 @@ def sites_of(loaded: LoadedModules) -> list[EditSite]:
 class _Reader:
     """Reads the sites of a model whose numeric global variables are `names`."""
 
-    def __init__(
-        self, loaded: LoadedModules, names: dict[str, str], rows: dict[Any, list[tuple[Span, str, bool]]]
-    ) -> None:
+    def __init__(self, loaded: LoadedModules, names: dict[str, str], rows: Rows) -> None:
         self._rows = rows
         self._files = {source: str(real_path(path)) for source, path in loaded.paths.items()}
         self._limits = sorted(name for name, kind in names.items() if kind in _NUMBERS)
@@ -157,10 +157,10 @@ class _Reader:
         match statement:
             case RuleDecl(class_name=owner, predicate=predicate, body=body):
                 rule = f"{owner.name}.{predicate.name}"
+                names = self._scopes.of_predicate(owner.name, predicate.name)
                 head, scope = owner.span, _lines(statement.span)
-                file = self._files[head.source]
                 yield EditSite(
-                    file,
+                    self._files[head.source],
                     head.line,
                     head.column,
                     head.line,
@@ -169,9 +169,10 @@ class _Reader:
                     f"{owner.name}::{predicate.name}",
                     (),
                     is_rule=True,
+                    inputs=tuple((name, kind) for name, kind in names.variables.items() if kind in _NUMBERS),
                 )
-                names = self._scopes.of_predicate(owner.name, predicate.name)
                 self._copied = frozenset((span.begin, name) for span, name in copied_names(body))
+                self._copied |= {(span.begin, _blank(span.text)) for span in said_before(body)}
                 yield from self._body(body, rule, statement.span, names)
             case ClassDecl(name=owner, members=members):
                 for member in members or ():

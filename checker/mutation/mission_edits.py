@@ -20,6 +20,7 @@ from runtime.executive.configuration import AgentConfiguration, GoalConfiguratio
 
 _PARAMETERS = "parameters"
 _NUMBER = re.compile(r"(?<![\w.])\d+(\.\d+)?")
+_SERIES = 3  # goals that each have a number of their own
 _LONGER = 10  # times as many ticks, of a property
 
 
@@ -115,19 +116,35 @@ def _asked(mission: Mission, number: int) -> Iterator[EditSite]:
             case _:
                 pass
         own = text.value_span(path)
-        is_copy = any(_asks_as(one, goal) for one in goals[:number])
         fresh: list[str] = []
-        if is_copy and isinstance(value, int) and not isinstance(value, bool):
-            asked = {dict(one.parameters).get(key) for one in goals if one.predicate == goal.predicate}
+        if isinstance(value, int) and not isinstance(value, bool) and _is_copy(goals, number, key):
+            asked = _asked_for(goals, goal, key)
             fresh = [str(one) for one in (value + 1, value - 1) if one not in asked]
         others = [one for one in dict.fromkeys((*fresh, *found)) if one not in (own.text, "0")]
         site = _site(text, path, EditKind.GOAL, others)
         yield replace(site, wanted=frozenset((own.begin, one) for one in fresh))
 
 
-def _asks_as(one: GoalConfiguration, other: GoalConfiguration) -> bool:
-    """Whether two goals ask for the same, whenever it be: one may be a copy."""
-    return (one.timeline, one.predicate, one.parameters) == (other.timeline, other.predicate, other.parameters)
+def _is_copy(goals: Sequence[GoalConfiguration], number: int, key: str) -> bool:
+    """Whether a goal asks for what one before it does, or has a number of that one where all others have their own."""
+    goal = goals[number]
+    asked, value = _asked_for(goals, goal, key), dict(goal.parameters)[key]
+    is_series = len(asked) >= _SERIES and len(set(asked)) == len(asked) - 1
+    return any(
+        _what(one) == _what(goal) or (is_series and dict(one.parameters).get(key) == value)
+        for one in goals[:number]
+        if _what(one)[:2] == _what(goal)[:2]
+    )
+
+
+def _asked_for(goals: Sequence[GoalConfiguration], goal: GoalConfiguration, key: str) -> list[object]:
+    """What goals of a predicate ask for by one parameter."""
+    return [dict(one.parameters).get(key) for one in goals if _what(one)[:2] == _what(goal)[:2]]
+
+
+def _what(goal: GoalConfiguration) -> tuple[object, ...]:
+    """What a goal asks for, whenever it be."""
+    return goal.timeline, goal.predicate, goal.parameters
 
 
 def _site(text: MissionText, path: tuple[str | int, ...], kind: EditKind, values: Sequence[str]) -> EditSite:

@@ -19,11 +19,13 @@ from nddl_lang.syntax.nodes import (
 )
 from nddl_lang.text.source import Span
 
+Rows = dict[Any, list[tuple[Span, str, bool]]]  # what may be written where, and whether that is told by the text
+
 _LEAST_ROWS = 3
 _NUMBERS = (IntLiteral, FloatLiteral)
 
 
-def swapped_rows(statements: Sequence[Any]) -> dict[Any, list[tuple[Span, str, bool]]]:
+def swapped_rows(statements: Sequence[Any]) -> Rows:
     """By its statement: what an object is made of in place of what the next one of its class is made of.
 
     Exchanged are all arguments but the first, which tells who it is, or the numbers among them; and whether the numbers
@@ -35,7 +37,7 @@ def swapped_rows(statements: Sequence[Any]) -> dict[Any, list[tuple[Span, str, b
         if made is not None:
             key = (made.class_name.name, len(made.arguments))
             rows.setdefault(key, []).append((statement, made))
-    found: dict[Any, list[tuple[Span, str, bool]]] = {}
+    found: Rows = {}
     for group in rows.values():
         table = [_numbers(made) for _, made in group]
         for at, ((statement, one), (_, other)) in enumerate(pairwise(group)):
@@ -86,9 +88,8 @@ def _numbers(made: NewExpr) -> tuple[float, ...]:
 def _grows(table: Sequence[tuple[float, ...]]) -> bool:
     """Whether each number is greater in each row than in the one before, of three rows at least."""
     is_told = len(table) >= _LEAST_ROWS and len(set(map(len, table))) == 1
-    return is_told and all(
-        one < other for before, after in pairwise(table) for one, other in zip(before, after, strict=True)
-    )
+    pairs = (pair for before, after in pairwise(table) for pair in zip(before, after, strict=True))
+    return is_told and all(one < other for one, other in pairs)
 
 
 def _stretch(made: NewExpr, last: int) -> Span:
