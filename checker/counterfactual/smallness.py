@@ -44,6 +44,7 @@ _SIDE = 0.1  # when it is tried whether a resource is consumed or produced: ther
 _BETWEEN = 0.5  # when a number is tried twice or half as large, where it is not known which is better
 _OTHER_WAY = 0.9  # when a number is changed the way that demands more
 _SWAPPED = 0.4  # when arguments change places: few lines have such
+_TOLD_BY_TEXT = 1.5  # of what the text tells to be meant
 _SWAP = 2.0  # of two lines that have changed places
 _LATE = 3.0  # later by so much: what is tried when all likelier edits have been
 _DROP = 3.0
@@ -100,9 +101,16 @@ def is_loosening(edit: SmallEdit, site: EditSite) -> bool:
 
 def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     """How unlikely an edit is the repair; what takes a demand away altogether costs most."""
+    if _is_told(edit, site, usage):
+        return _TOLD_BY_TEXT
     form = _DROP if is_loosening(edit, site) else _form(edit, site, usage) + _structural(edit, usage)
     form += _MIXED * mixes_times(edit, site) - usage.measure(edit, site)
     return form + _KINDS * math.log(max(usage.kinds[edit.kind], 1)) - _TWIN * usage.twins(edit, site)
+
+
+def _is_told(edit: SmallEdit, site: EditSite, usage: Usage) -> bool:
+    """Whether the text itself tells what is meant: of a copy, a swapped line, a wait that counts from a start."""
+    return (edit.begin, edit.new) in site.wanted or usage.orders.counts_from_end(edit, site)
 
 
 def _structural(edit: SmallEdit, usage: Usage) -> float:
@@ -112,8 +120,6 @@ def _structural(edit: SmallEdit, usage: Usage) -> float:
 
 
 def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
-    if (edit.begin, edit.new) in site.wanted or usage.orders.counts_from_end(edit, site):
-        return _UNMIXED
     match edit.kind:
         case EditKind.RELATION if usage.orders.rights(edit, site):
             return 0.0
@@ -189,6 +195,8 @@ def delay_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
 
     What loosens most comes first: where it does not help, smaller ones seldom do.
     """
+    if _is_told(edit, site, usage):
+        return -1.0  # seen without any flight
     delay = _delay(edit, site, usage)
     if delay is not None and mixes_times(edit, site):
         return _LATE
@@ -205,8 +213,6 @@ def first_edits(site: EditSite, usage: Usage) -> list[tuple[float, SmallEdit]]:
 
 
 def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
-    if (edit.begin, edit.new) in site.wanted or usage.orders.counts_from_end(edit, site):
-        return -1.0  # seen without any flight
     match edit.kind:
         case EditKind.MISSION:
             return -1.0 if edit.old == "0" else None  # tried last

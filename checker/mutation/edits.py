@@ -196,9 +196,9 @@ class _Reader:
         for statement in body:
             match statement:
                 case IfStatement(condition=condition, then=then, otherwise=otherwise):
-                    swaps = [self._edit(EditKind.SWAP, *each) for each in swapped_branches(statement)]
+                    self._rows = {**self._rows, **swapped_branches(statement)}
                     branches = [self._dropped(one[0].span.to(one[-1].span)) for one in (then, otherwise) if one]
-                    yield self._site(condition, rule, whole, (condition,), more=[*branches, *swaps], names=names)
+                    yield self._site(condition, rule, whole, (condition,), more=branches, names=names)
                     for branch in (then, otherwise or ()):
                         yield from self._body(branch, rule, whole, names)
                 case Foreach(body=inner):
@@ -208,6 +208,7 @@ class _Reader:
                     made = {label: shape for label, shape in behind.tokens.items() if label not in names.tokens}
                     lines = missing_lines(statement, whole, behind, made)
                     more = [self._edit(EditKind.LINE, span, new) for span, new in lines]
+                    more += [self._edit(EditKind.SWAP, span, new) for span, new, _ in self._rows.get(statement, ())]
                     yield self._site(statement, rule, whole, (statement,), more=more, names=names)
                     names = behind
                 case _:

@@ -40,7 +40,7 @@ def missing_lines(statement: Any, rule: Span, names: LineScope, made: dict[str, 
             if names.is_value(kind) and not re.search(rf"\b{label}\s*\.\s*{parameter}\b", rule.text):
                 for value in _values(label, kind, names):
                     yield behind, f" {label}.{parameter} == {value};"
-        if not shape.is_event and not is_ended(rule.text):
+        if not shape.is_event and not _is_ended(rule.text):
             yield behind, f" {label}.end == end;"
         yield from ((behind, f" {before} before {label};") for before, after in _gaps(rule.text) if after == label)
 
@@ -57,7 +57,7 @@ def _gaps(rule: str) -> list[tuple[str, str]]:
     return gaps if len(children) >= _FEWEST and len(gaps) == 1 else []
 
 
-def is_ended(rule: str) -> bool:
+def _is_ended(rule: str) -> bool:
     """Whether a line of a rule says when its token ends: an upper bound alone only says when it must be over.
 
     What a resource is used at the end of is told by that end, and does not tell it.

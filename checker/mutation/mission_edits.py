@@ -119,7 +119,7 @@ def _asked(mission: Mission, number: int) -> Iterator[EditSite]:
         fresh: list[str] = []
         if isinstance(value, int) and not isinstance(value, bool) and _is_copy(goals, number, key):
             asked = _asked_for(goals, goal, key)
-            fresh = [str(one) for one in (value + 1, value - 1) if one not in asked]
+            fresh = [str(one) for one in (value + 1, value - 1) if one > 0 and one not in asked]
         others = [one for one in dict.fromkeys((*fresh, *found)) if one not in (own.text, "0")]
         site = _site(text, path, EditKind.GOAL, others)
         yield replace(site, wanted=frozenset((own.begin, one) for one in fresh))

@@ -56,12 +56,18 @@ def swapped_rows(statements: Sequence[Any]) -> Rows:
     return found
 
 
-def swapped_branches(condition: IfStatement) -> Iterator[tuple[Span, str]]:
-    """What one branch says that a variable is in place of what the other branch says."""
-    there = dict(_set(condition.otherwise or ()))
-    for name, said in _set(condition.then):
+def swapped_branches(condition: IfStatement) -> Rows:
+    """By its statement: what one branch says that a variable is in place of what the other branch says.
+
+    Where the branches say nothing else, their condition would be mistaken.
+    """
+    found: Rows = {}
+    branches = condition.then, condition.otherwise or ()
+    there = {name: said for name, said, _ in _set(branches[1])}
+    for name, said, statement in _set(branches[0]) if min(map(len, branches)) > 1 else ():
         if name in there and said.text != there[name].text:
-            yield _swapped(said, there[name])
+            found[statement] = [(*_swapped(said, there[name]), False)]
+    return found
 
 
 def swapped_parts(old: str, new: str) -> tuple[str, str]:
@@ -96,11 +102,11 @@ def _stretch(made: NewExpr, last: int) -> Span:
     return made.arguments[1].span.to(made.arguments[last].span)
 
 
-def _set(branch: Iterable[Any]) -> Iterator[tuple[str, Span]]:
+def _set(branch: Iterable[Any]) -> Iterator[tuple[str, Span, Any]]:
     for statement in branch:
         match statement:
             case ExprConstraint(expression=BinaryExpr(op="==", left=PathExpr(span=left), right=right)):
-                yield left.text, right.span
+                yield left.text, right.span, statement
             case _:
                 pass
 
