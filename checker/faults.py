@@ -77,7 +77,7 @@ def faults_of(
             found.append((joined(joining) if earlier else bucket, causes))
         else:
             found[same] = (joined((found[same][0], bucket)), found[same][1])
-    return found
+    return [(bucket, causes.among(len(bucket.missions))) for bucket, causes in found]
 
 
 def missions_of(bucket: Bucket, results: Sequence[MissionResult], first: int | None = None) -> Missions:

@@ -226,6 +226,7 @@ def _with_causes(
         causes = known.get(one.example, NO_CAUSES) if focus in one.missions else NO_CAUSES
         if focus in one.missions and not causes.is_sought:
             causes = let(partial(seeker.causes, missions_of(one, results, focus))) or CANCELLED
+            causes = causes.among(len(one.missions))
         found.append((one, causes))
     return found
 

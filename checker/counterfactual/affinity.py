@@ -19,6 +19,7 @@ _TIMES = ("start", "end", "duration")
 _LEAST_STEM = 3  # letters
 _SUFFIX = 0.5  # share of the longer word that two words of one stem have in common
 _MANY = 3
+_LEAST_NAMES = 3  # of a formula that is written twice
 _TOPIC, _COMPANY = 2.0, 1.0
 # Words that say nothing of what a line is about.
 _COMMON = frozenset(
@@ -40,6 +41,7 @@ class Affinity:
         self._named = named
         self._company: dict[str, Counter[str]] = defaultdict(Counter)
         self._texts = Counter(_plain(site.text) for site in sites)
+        self._formulas = Counter(found for site in sites if site.rule and (found := _formula(_plain(site.text))))
         self._in_rule = Counter((site.file, site.scope, _plain(site.text)) for site in sites if site.rule)
         self._tokens: dict[tuple[str, tuple[int, int], str], str] = {}  # what the label of a token in a rule stands for
         for site in sites:
@@ -96,6 +98,11 @@ class Affinity:
         """Whether the line is then written as a line of another rule is."""
         text = _after(edit, site)
         return bool(text) and self._elsewhere(site, text) > 0
+
+    def makes_formula(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether a line then computes what a line of another rule computes for something else, and does not before."""
+        before, after = _formula(_plain(site.text)), _formula(_after(edit, site))
+        return bool(after) and after != before and self._formulas[after] > 0 and self._formulas[before] <= 1
 
     def repeats(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether its rule then has the line twice."""
@@ -163,6 +170,12 @@ def _after(edit: SmallEdit, site: EditSite) -> str:
     first, last = edit.begin - site.begin, edit.end - site.begin
     is_inside = 0 <= first <= last <= len(site.text) and edit.new.strip()
     return _plain(site.after(edit)) if is_inside else ""
+
+
+def _formula(text: str) -> str:
+    """The right side of `==` in a line without blanks, if it computes something of several names; else empty."""
+    side = text.partition("==")[2]
+    return side if len(set(WORD.findall(side))) >= _LEAST_NAMES else ""
 
 
 def _plain(text: str) -> str:

@@ -74,8 +74,10 @@ def _unread(sites: Sequence[EditSite], near: dict[EditSite, Candidate], usage: U
 def _unset(sites: Sequence[EditSite], near: dict[EditSite, Candidate], usage: Usage) -> Iterator[tuple[float, Loose]]:
     """The numbers and local variables that lines read and nothing sets, each where it is declared."""
     lines = Counter(one.named for one in sites if one.is_number)
+    rules = {(one.file, one.scope) for one in sites if one.is_rule}
     for site in sites:
-        if name := usage.mentions.unset_local(site):
+        is_local = (site.file, site.scope) in rules  # what a predicate declares is a parameter: who asks for it sets it
+        if is_local and (name := usage.mentions.unset_local(site)):
             candidate = near.get(site) or Candidate(site, _UNPLACED, Suspicion.DEPENDENCE)
             yield candidate.far + _UNSET, Loose(candidate, name, is_unset=True)
         is_bare = _BARE.fullmatch(site.text) is not None

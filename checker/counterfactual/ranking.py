@@ -6,7 +6,7 @@ what only takes a demand away or mends some, variables that too few lines speak 
 has no value is second at least. Where a branch lacks what the other sets, what leads around it shows no more.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 
@@ -39,7 +39,9 @@ class Claim(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class RankedLine:
-    """One line with its claim: the smallest `change` that helped, on how many of how many failed missions.
+    """One line with its claim: the smallest `change` that helped, on how many of the failed missions it was tried on.
+
+    `among` is how many missions failed so.
 
     `spoilt` missions that passed fail with it. Of a loose end, `variable` is what too few lines speak of, or none
     reads. `rule` is what the line is a part of.
@@ -53,6 +55,7 @@ class RankedLine:
     missions: int = 0
     spoilt: int = 0
     variable: str = ""  # of a call of Python, the constraint that is called
+    among: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +72,10 @@ class Causes:
     def is_sought(self) -> bool:
         """Whether anything was tried, or would have been with more time."""
         return self.flights > 0 or self.ended is not TrialsEnd.COMPLETE
+
+    def among(self, failed: int) -> "Causes":
+        """The same, where so many missions failed."""
+        return replace(self, ranked=tuple(replace(one, among=failed) for one in self.ranked))
 
     def is_all_of(self, flights: int) -> bool:
         """Whether so many flights would show no more."""

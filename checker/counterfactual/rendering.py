@@ -15,7 +15,7 @@ GUESSES = (Claim.LOOSE_END, Claim.UNEVEN, Claim.UNREAD, Claim.UNSET)  # that no 
 def claim_text(cause: RankedLine) -> str:
     """What was found out about a line."""
     change = _change_text(cause.change) if cause.change is not None else ""
-    tried = f"{cause.helped} of {cause.missions} failed missions tried"
+    tried = f"{cause.helped} of {cause.missions} failed missions tried{_of_all(cause)}"
     match cause.claim:
         case Claim.MENDS:
             return f"{change}: {_passes(cause)}"
@@ -108,6 +108,7 @@ def cause_data(cause: RankedLine) -> dict[str, Any]:
         "variable": cause.variable,
         "helped": cause.helped,
         "missions": cause.missions,
+        "failed": cause.among,
         "spoilt": cause.spoilt,
     }
 
@@ -128,8 +129,14 @@ def causes_data(causes: Causes) -> dict[str, Any]:
 
 def _passes(cause: RankedLine) -> str:
     if cause.missions == 1:
-        return "the mission passes then"
-    return f"{'both' if cause.missions == 2 else f'all {cause.missions}'} failed missions tried pass then"
+        return f"the mission{' tried' * bool(_of_all(cause))}{_of_all(cause)} passes then"
+    every = "both" if cause.missions == 2 else f"all {cause.missions}"
+    return f"{every} failed missions tried{_of_all(cause)} pass then"
+
+
+def _of_all(cause: RankedLine) -> str:
+    """How many failed missions there are, where a change was not tried on all of them."""
+    return f" (of {cause.among})" if cause.among > cause.missions else ""
 
 
 def _short(text: str) -> str:

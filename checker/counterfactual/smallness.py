@@ -109,8 +109,9 @@ def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
 
 
 def _is_told(edit: SmallEdit, site: EditSite, usage: Usage) -> bool:
-    """Whether the text itself tells what is meant: of a copy, a swapped line, a wait that counts from a start."""
-    return (edit.begin, edit.new) in site.wanted or usage.orders.counts_from_end(edit, site)
+    """Whether the text itself tells what is meant: of a copy, a swapped line, a wait, a formula."""
+    is_wanted = (edit.begin, edit.new) in site.wanted or usage.orders.counts_from_end(edit, site)
+    return is_wanted or usage.affinity.makes_formula(edit, site)
 
 
 def _structural(edit: SmallEdit, usage: Usage) -> float:

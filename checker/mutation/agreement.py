@@ -9,12 +9,13 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from checker.mutation.scope import LineScope
-from nddl_lang.syntax.nodes import BinaryExpr, PathExpr
+from nddl_lang.syntax.nodes import BinaryExpr, BoolLiteral, PathExpr
 from nddl_lang.text.source import Span
 
 _NUMBERS = ("int", "float")
 _MOMENTS, _SPAN = ("start", "end"), "duration"
 _MOMENT = "moment"
+_TRUTH, _TRUTHS = "bool", ("true", "false")
 _EVENT_TIME = "time"  # of what changes a resource
 
 
@@ -27,6 +28,8 @@ class Agreement:
     def kind_of(self, text: str, names: LineScope) -> str:
         """The type of a variable, constant or time as it is written; empty where it is none of these."""
         label, _, last = text.rpartition(".")
+        if text in _TRUTHS:
+            return _TRUTH
         if _is_event_time(text, names):
             return _MOMENT
         if label in ("", *names.tokens) and not names.type_of(tuple(text.split("."))):
@@ -62,7 +65,8 @@ class Agreement:
 
     def is_apart(self, node: Any, names: LineScope) -> bool:
         """Whether two names stand on both sides of `==` that can hardly be compared."""
-        if not (isinstance(node, BinaryExpr) and isinstance(node.left, PathExpr) and isinstance(node.right, PathExpr)):
+        sides = (node.left, node.right) if isinstance(node, BinaryExpr) else ()
+        if not sides or not all(isinstance(side, PathExpr | BoolLiteral) for side in sides):
             return False
         wanted = [(span.text, self.kind_of(span.text, names)) for span, _ in self.wanted(node, names)]
         is_event = any(_is_event_time(text, names) for text, _ in wanted)  # it comes when a token begins or ends
