@@ -16,11 +16,11 @@ from checker.names import mission_name
 from checker.oracle import CODE_NAMES
 from checker.proofs.conflict import Confirmation
 from checker.rendering import (
+    beside,
     cause_number,
     confirmation_text,
     failure_text,
     kind_text,
-    standing_text,
     step_label,
     step_text,
 )
@@ -89,10 +89,7 @@ def _step_lines(index: int, step: Step, story: Story, excerpts: Excerpts, causes
     lines = [f"{index:>4}  {when}{step_text(step, story)}{step_label(step, causes)}"]
     if step.place is not None:
         lines += excerpt_lines(step.place, excerpts, marked=step.kind in (StepKind.FAULT, StepKind.BROKEN))
-    beside = [("where the object is made", step.made, False)] if step.made is not None else []
-    beside += [(standing_text(one), one.place, False) for one in step.under]
-    beside += [("where the limit is set", limit, True) for limit in step.limits]
-    for said, place, is_marked in beside:
+    for said, place, is_marked in beside(step):
         cause = cause_number(place, causes)
         mark = f" (cause {cause})" if cause else ""
         lines += [f"      {said}{mark}:", *excerpt_lines(place, excerpts, marked=is_marked)]

@@ -159,7 +159,14 @@ def step_label(step: Step, causes: Sequence[SourcePlace]) -> str:
     return f"   <== {', '.join(marks)}" if marks else ""
 
 
-def standing_text(standing: Standing) -> str:
+def beside(step: Step) -> list[tuple[str, SourcePlace, bool]]:
+    """The lines that are told beside the one of a step: what each is, where it stands, and whether that is marked."""
+    told = [("where the object is made", step.made, False)] if step.made is not None else []
+    told += [(_standing_text(one), one.place, False) for one in step.under]
+    return [*told, *(("where the limit is set", limit, True) for limit in step.limits)]
+
+
+def _standing_text(standing: Standing) -> str:
     """That a line stands under a condition."""
     return "which stands in the `else` of" if standing.is_else else "which stands under"
 

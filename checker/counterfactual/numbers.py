@@ -2,11 +2,13 @@
 
 import math
 import re
+from dataclasses import replace
 
 from checker.mutation.edits import EditSite, SmallEdit
 from checker.mutation.kinds import EditKind
 
 _COMPUTED = re.compile(r"\s*[A-Za-z_][\w.]*\s*==.*[A-Za-z_)].*;", re.DOTALL)
+_TWICE = 2.0  # octaves
 NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 
 
@@ -16,10 +18,17 @@ def is_doubling(edit: SmallEdit) -> bool:
 
 
 def between(edit: SmallEdit, site: EditSite) -> list[SmallEdit]:
-    """Where a number changes by more than a doubling or halving, that of the same number and direction."""
-    if edit.kind is not EditKind.CONSTANT or octaves(edit) <= 1.0 or float(edit.new) * float(edit.old) <= 0.0:
+    """Where a number changes by far, a doubling or halving of it in the same direction, and twice that."""
+    if edit.kind is not EditKind.CONSTANT or octaves(edit) <= _TWICE or float(edit.new) * float(edit.old) <= 0.0:
         return []
-    return [one for one in _same_way(edit, site) if is_doubling(one)]
+    doubled = [one for one in _same_way(edit, site) if is_doubling(one)]
+    return [*doubled, *(replace(one, new=_twice(one)) for one in doubled)]
+
+
+def _twice(edit: SmallEdit) -> str:
+    """A number that changes as much again as an edit changes it."""
+    number = float(edit.new) * float(edit.new) / float(edit.old)
+    return repr(round(number, 12)) if "." in edit.old else str(round(number))
 
 
 def is_step(edit: SmallEdit, site: EditSite) -> bool:

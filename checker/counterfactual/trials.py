@@ -223,8 +223,8 @@ def try_out(
                 turns.encourage(site)
             turns.tire(site)
             if result.verdict is Verdict.FAIL and course_of(result) != course:
-                for other in between(edit, site):
-                    turns.add(at + _LESS, candidate, other)
+                for step, other in enumerate(between(edit, site), 1):
+                    turns.add(at + step * _LESS, candidate, other)
             continue
         trial = trials.read(candidate, edit, cost, result)
         if trial.damage < HEAVY:

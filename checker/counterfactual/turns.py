@@ -63,11 +63,20 @@ class Turns:
     def doubt(self, site: EditSite, place: int | None) -> None:
         """Try what else may stand at a place of a line later; at any of its places where none is given.
 
-        But for a relation or comparison the other way round: a planner that is free may choose as it had to.
+        But for a relation or comparison the other way round: a planner that is free may choose as it had to. And of a
+        condition each value takes the branch for others.
         """
         if (site, place) not in self._doubted and (site, None) not in self._doubted:
             self._doubted.add((site, place))
-            self._delay(_IDLE, lambda candidate, edit: candidate.site is site and _is_doubtful(edit, place))
+            is_case = place is not None and not site.text.endswith(";")
+            self._delay(
+                _IDLE,
+                lambda candidate, edit: (
+                    candidate.site is site
+                    and _is_doubtful(edit, place)
+                    and not (is_case and edit.kind is EditKind.VALUE)
+                ),
+            )
 
     def tire(self, site: EditSite) -> None:
         """Try the other edits of a line later of which many were in vain: lines that were not tried have their turn."""

@@ -34,7 +34,10 @@ def other_names(node: Any, names: LineScope) -> Iterator[tuple[Span, str]]:
     kind = names.type_of(parts) or names.enum_of(parts) or ("float" if parts[0] in names.constants else "")
     if names.is_value(kind):
         is_constant = len(parts) == 1 and parts[0] in names.constants
+        is_member = len(parts) > 1 and parts[0] in names.variables
         for other in names.alike(kind):
+            if is_member and names.type_of(tuple(other.split("."))) != kind:
+                continue  # what an object is made of is hardly mistaken for what is counted
             if other != ".".join(parts) and not (is_constant and other in names.constants):
                 yield node.span, other
 

@@ -14,7 +14,7 @@ from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.losses import Limit, amount
 from checker.oracle import CODE_NAMES, Verdict
-from checker.rendering import confirmation_text, failure_text, lines_text, step_text
+from checker.rendering import beside, confirmation_text, failure_text, lines_text, step_text
 from checker.report.losses import damage_words, goal_line, goal_text, repair_text, request_line, unmet_text
 from checker.report.paths import plan_figure, section_figure, space_figure
 from checker.report.sentences import (
@@ -178,14 +178,11 @@ def _fault(
 
 def _step(step: Step, story: Story, excerpts: Excerpts) -> str:
     when = f'<span class="soft">tick {step.tick}</span> ' if step.tick is not None else ""
-    places = [
-        place
-        for place in (*(one.place for one in step.under), step.place, step.made, *step.limits)
-        if place is not None
-    ]
     is_fault = step.kind in (StepKind.FAULT, StepKind.BROKEN)
-    lines = "\n".join(_excerpt(place, excerpts, marked=is_fault) for place in places)
-    source = f"<pre>{lines}</pre>" if lines else ""
+    lines = [_excerpt(step.place, excerpts, marked=is_fault)] if step.place is not None else []
+    for said, place, is_marked in beside(step):
+        lines.append(f'<span class="soft">{_words(said)}:</span>\n{_excerpt(place, excerpts, marked=is_marked)}')
+    source = "<pre>" + "\n".join(lines) + "</pre>" if lines else ""
     return f'<li class="{step.kind}"><span class="why">{when}{_words(step_text(step, story))}</span>{source}</li>'
 
 

@@ -8,10 +8,12 @@ from checker.batch.result import MissionResult
 from checker.batch.worker import fly_one
 from checker.broken_plans import usual_breaking
 from checker.campaign import Campaign
+from checker.excerpts import Excerpts
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.oracle import Verdict
 from checker.pinned import pinned
+from checker.report.html import html_report
 from checker.story import Step, StepKind
 
 pytestmark = pytest.mark.once
@@ -115,6 +117,8 @@ def test_too_many_repairs_are_told_as_what_broke(tmp_path: Path) -> None:
     assert [(one.place.text, one.is_else) for one in blamed.under] == [("if (soft == true) {", True)]
     assert [one.text for one in blamed.limits] == ["LONG = 8"]
     assert story.confirmation is not None and story.confirmation.is_minimal
+    page = html_report(given.assess((failed,), may_fly=False), Excerpts(tmp_path), [story])
+    assert "which stands in the <code>else</code> of:" in page
 
 
 def test_what_broke_before_the_end_is_told_first(tmp_path: Path) -> None:
