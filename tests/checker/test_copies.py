@@ -1,12 +1,15 @@
 """Lines that were copied, swapped or written beside what says the same: the text itself tells what was meant."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.ranking import Claim, RankedLine
 from checker.counterfactual.rendering import claim_text
 from checker.counterfactual.smallness import cost_of, delay_of, is_loosening
+from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import Usage, usage_of
 from checker.mission import read_mission
 from checker.mutation.additions import with_additions
@@ -61,13 +64,23 @@ Lock::Pass {
     any(Reservoir.consume use);
     use.object == sea;
     use.time == end;
+    one.size == true;
+    use.quantity == one.size * SHARE + WAIT;
     duration <= 90;
 }
 Gate::Fill {
     float rate;
     rate == sampledParameter(RATE);
     duration == rate;
+    if (depth == low) {
+        litres <= 9.0;
+    }
     degrees <= 90.0;
+}
+Lock::Pass {
+    Basin one;
+    contains(Gate.Fill second);
+    second.litres == one.size * HOT + WAIT;
 }
 Basin upper = new Basin(1, 20.0, false);
 Times spring = new Times(1, 50, 90);
@@ -192,6 +205,35 @@ def test_a_wait_counts_from_the_end_of_what_comes_before(sites: list[EditSite], 
     site = line(sites, "second.start <= first.start + WAIT;")
     assert is_seen(edit(site, EditKind.POINT, "first.end"), site, usage)
     assert not is_seen(edit(site, EditKind.POINT, "second.end"), site, usage)
+
+
+def test_a_truth_value_stands_beside_a_truth_value(sites: list[EditSite], usage: Usage) -> None:
+    site = line(sites, "one.size == true;")
+    assert site.is_apart
+    assert delay_of(edit(site, EditKind.NAME, "warm"), site, usage) < 0.0  # type: ignore[operator]
+
+
+def test_what_another_line_computes_is_meant(sites: list[EditSite], usage: Usage) -> None:
+    site = line(sites, "second.litres == one.size * HOT + WAIT;")
+    assert is_seen(edit(site, EditKind.LIMIT, "SHARE"), site, usage)
+    assert not is_seen(edit(site, EditKind.LIMIT, "COLD"), site, usage)
+
+
+def test_another_value_of_a_condition_is_not_doubted_where_one_changed_nothing(sites: list[EditSite]) -> None:
+    turns = Turns(lambda _: ())
+    site = line(sites, "depth == low")
+    value, sign = edit(site, EditKind.VALUE, "high"), next(one for one in site.edits if one.kind is EditKind.COMPARISON)
+    candidate = Candidate(site, 0.0, Suspicion.CONFLICT)
+    for at, one in ((0.5, value), (0.6, sign)):
+        turns.add(at, candidate, one)
+    turns.doubt(site, value.begin)
+    assert turns.pop()[2] is value
+
+
+def test_it_is_said_of_how_many_missions_some_were_tried() -> None:
+    cause = RankedLine(SourcePlace("m.nddl", 1, 1, "x"), "", Claim.EVADES, None, helped=3, missions=3, among=18)
+    assert "all 3 failed missions tried (of 18) pass then" in claim_text(cause)
+    assert "(of" not in claim_text(replace(cause, among=3))
 
 
 MISSION = """[mission]

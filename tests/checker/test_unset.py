@@ -86,3 +86,14 @@ def test_a_parameter_that_its_own_rule_sets_is_not_missed_by_the_rule_before(tmp
     line = next(one for one in sites if one.text == "x1 == px;")
     fitness = {edit.new: usage.fitness(edit, line) for edit in line.edits if edit.old == "px"}
     assert fitness["next.x1"] <= 0.0
+
+
+BOUNDED = """class Part extends Timeline { predicate Test { int level; level <= 3; } }
+Part::Test { duration == level; }
+"""
+
+
+def test_a_parameter_that_its_predicate_bounds_is_set_by_who_asks_for_it(tmp_path: Path) -> None:
+    (tmp_path / "m.nddl").write_text(BOUNDED, encoding="utf-8")
+    sites = sites_of(load_graph(tmp_path / "m.nddl", ()))
+    assert not [one.variable for one in loose_ends(Dependence((), sites), (), usage_of(sites)) if one.is_unset]
