@@ -20,6 +20,7 @@ from runtime.executive.messages import Arguments
 from runtime.executive.outcome import ConflictElement, ElementKind, EventKind, Outcome
 
 _SPOKEN, _DEAF, _BROKEN, _LOST, _ABORTED, _ASKED, _OTHERS = 0.0, 0.0, 0.5, 1.0, 2.0, 2.5, 3.0
+_OWNER, _OTHER_OWNER = 0.5, 1.5  # of what a reactor in Python is given that owns what was given up
 _MOST_ASKERS = 4  # goals behind a request, the most urgent first
 _GIVEN_UP = (EventKind.REJECT, EventKind.REFUSE)
 
@@ -37,6 +38,7 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
     broken = next((one.name for one in outcome.properties if not one.is_kept), "") if is_judged else ""
     behind = _behind_requests(mission, ended, elements, outcome)
     due = _due(mission, outcome)
+    troubled = {line for line, _ in given_up} | set(outcome.abort.timelines if outcome.abort is not None else ())
     found = []
     for (table, number), sites in mission_sites(mission).items():
         if table == "goal":
@@ -47,6 +49,9 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
         elif table == "asked":
             sites = [one for one in sites if number == due or one.wanted]
             far = _ASKED
+        elif table == "setting":
+            owned = set(mission.agent.coded[number].internal)
+            far = _OWNER if owned & troubled else _OTHER_OWNER
         elif table == "property":
             if mission.agent.properties[number].name != broken:
                 continue

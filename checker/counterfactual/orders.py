@@ -13,6 +13,7 @@ from checker.mutation.kinds import EditKind
 _LATER = re.compile(r"\s*(\w+)\.start\s*[<>]=?\s*(\w+)\.end\b.*;", re.DOTALL)
 _SINCE_START = re.compile(r"\s*(\w+)\.start\s*<=?\s*(\w+)\.start\s*\+.*;", re.DOTALL)
 _ORDERED = re.compile(r"\s*(\w+)\s+(before|after|meets|met_by)\s+(\w+)\s*;")
+_MADE = re.compile(r"(?:contains|starts|ends|any)\s*\(\s*[\w.]+\s+(\w+)\s*\)")
 _TURNED = ("after", "met_by")
 
 
@@ -22,11 +23,31 @@ class Orders:
     def __init__(self, sites: Sequence[EditSite]) -> None:
         self._first: dict[object, set[tuple[str, str]]] = defaultdict(set)
         self._related: dict[object, set[tuple[str, str]]] = defaultdict(set)  # by relations
+        self._made: dict[object, list[str]] = defaultdict(list)  # the tokens that it asks for, as it names them
         for site in sites:
             if site.rule and (order := _order(site.text)) is not None:
-                self._related[site.file, site.scope].add(order)
+                self._join(self._related[site.file, site.scope], *order)
+            if site.rule and (made := _MADE.match(site.text)):
+                self._made[site.file, site.scope].append(made.group(1))
             if site.rule and (found := _LATER.fullmatch(site.text)):
                 self._first[site.file, site.scope].add((found.group(2), found.group(1)))
+
+    @staticmethod
+    def _join(related: set[tuple[str, str]], first: str, second: str) -> None:
+        """Note that a token comes before another one, and what follows from that."""
+        before = {first, *(one for one, other in related if other == first)}
+        after = {second, *(other for one, other in related if one == second)}
+        related |= {(one, other) for one in before for other in after}
+
+    def as_written(self, edit: SmallEdit, site: EditSite) -> int:
+        """1 where a relation has two tokens in the order then in which the rule asks for them, -1 if it had before."""
+        before, after = _order(site.text), _order(site.after(edit))
+        if before is None or after is None or before == after:
+            return 0
+        made = self._made[site.file, site.scope]
+        if not {*before, *after} <= set(made):
+            return 0
+        return (made.index(after[0]) < made.index(after[1])) - (made.index(before[0]) < made.index(before[1]))
 
     def rights(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether a relation says the same as such a limit after an edit, and said the contrary before."""

@@ -55,7 +55,7 @@ _DIGIT = 0.1  # for each digit that a constant has more
 _IDLE = 2.5  # odds of a constant that nothing uses any more, or where the range of a draw is used as a number
 _RANGE = 4.0  # and of such a range in place of a number
 _KIN = 0.6  # odds for each point of affinity that a constant has more for a line than another
-_LAST_USE = 2.0  # odds that a constant is not declared for nothing
+_LAST_USE = 3.5  # odds that a constant is not declared for nothing
 _KIN_SOON = -0.2  # when a constant is tried that belongs better into a line
 _TWIN = 1.0  # odds of a line that is then written as another line is
 _TWIN_SOON = 0.6  # and how much sooner that is tried
@@ -80,6 +80,8 @@ _VALUE = 1.7  # of another value: few lines have one, so their number says littl
 _CASE = 1.0  # odds that no two conditions of a rule ask for the same value
 _LAST_CASE = 2.0  # odds that no value of an enumeration is for nothing, where all others have their use
 _FREED = 2.0  # odds that a line which alone says what a variable is says it with `==`
+_WRITTEN = 1.0  # odds that tokens come in the order in which a rule asks for them
+_UNLIKE = 1.0  # odds that a whole number is not mistaken for a real one
 _CONFUSED = 2.0  # odds that two numbers of one variable are not the same
 _DENIED = 2.0  # odds that two lines that agree on an order of tokens are right
 _FLOW = 2.0  # odds that a resource is both consumed and produced
@@ -128,10 +130,11 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return _UNMIXED
         case EditKind.RELATION | EditKind.COMPARISON | EditKind.SIGN:
             freed = _FREED * usage.mentions.frees(edit, site) + _DENIED * usage.orders.denies(edit, site)
+            freed -= _WRITTEN * usage.orders.as_written(edit, site)
             scale = _SENSE * (edit.kind is EditKind.SIGN and usage.formulas.adds_scale(edit, site))
             return 1.0 + scale + _UNUSUAL * usage.odds(edit, site) + freed
         case EditKind.LIMIT:
-            belongs = _KIN * usage.gain(edit, site) - _LAST_USE * usage.strands(edit)
+            belongs = _KIN * usage.gain(edit, site) - _LAST_USE * (usage.strands(edit) and not usage.is_swapped(edit))
             belongs += _AGREES * ((edit.begin, edit.new) in site.agreeing)
             belongs -= _RANGE * (edit.new in usage.sampled)
             return 1.5 - _IDLE * usage.is_swapped(edit) - belongs
@@ -169,6 +172,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return told + (_HANDED_ON if is_namesake(edit.new) else _LINE)
         case EditKind.MISSION:
             return 3.0
+        case EditKind.SETTING:
+            return 1.0 + _OCTAVE * octaves(edit) + _DIGIT * (digits(edit.new) - digits(edit.old))
         case EditKind.SWAP:
             return _SWAP
         case EditKind.TERM:
@@ -186,6 +191,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             usual = _LIMITED * usage.limits.odds(edit, site)
             usual -= _ARGUMENT * usage.is_exchanged(edit, site)
             usual += _SENSE * (site.is_apart and (edit.begin, edit.new) in site.agreeing)
+            usual -= _UNLIKE * ((edit.begin, edit.new) in site.unlike)
             return 2.0 - usage.fitness(edit, site) - _SIBLING * usage.siblings.completes(edit, site) - usual
         case _:
             return 1.0
@@ -268,6 +274,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             fitness = usage.fitness(edit, site)
             is_set = usage.mentions.is_set_by(edit, site)
             neutral = _LATE if edit.new in usage.named or is_set else 0.7
+            fitness -= _UNLIKE * ((edit.begin, edit.new) in site.unlike)
             return 0.5 - 0.6 * fitness if fitness > 0.0 else neutral - fitness
         case EditKind.VALUE:
             alike = len(site.rivals(edit, EditKind.VALUE))
@@ -279,6 +286,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return 0.5 - 0.5 * usual + _LATER * usage.passing
         case EditKind.PREDICATE:
             return 0.5 - usage.presence(edit, site) + _LATER * usage.passing
+        case EditKind.SETTING:
+            return _BETWEEN if octaves(edit) <= 1.0 else -0.3
         case EditKind.DROPPED_CONSTRAINT:
             return _LATE if sets_value(edit.old) else 0.3
         case EditKind.DROPPED_BRANCH:

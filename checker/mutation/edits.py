@@ -83,6 +83,7 @@ class EditSite:
     that is set here, a number if `is_number`; `is_rule`: it is the head of a rule, for which something may be missing.
     `begin` is its offset. `agreeing` edits, each by its offset and what it writes, give both sides of `==` one type.
     `is_apart`: the two can hardly be compared. `wanted` edits, given alike, make of a copy what it was copied for.
+    `unlike` edits, given alike, write a whole number for a real one, or the other way round.
     `inputs` are the numbers, each with its type, that the token of a rule brings along, told at its head.
     `coded` is the constraint of the project's own that it calls, in Python.
     """
@@ -103,6 +104,7 @@ class EditSite:
     agreeing: frozenset[tuple[int, str]] = frozenset()
     is_apart: bool = False
     wanted: frozenset[tuple[int, str]] = frozenset()
+    unlike: frozenset[tuple[int, str]] = frozenset()
     inputs: tuple[tuple[str, str], ...] = ()
 
     def holds(self, file: str, line: int) -> bool:
@@ -244,6 +246,7 @@ class _Reader:
             coded=node.name.name if isinstance(node, CallConstraint) and node.name.name not in CONSTRAINTS else "",
             agreeing=self._agreeing(node, names, edits),
             wanted=frozenset((edit.begin, edit.new) for edit in (*edits, *more)) & self._copied,
+            unlike=frozenset((edit.begin, edit.new) for edit in edits if _is_unlike(edit, names)),
             is_apart=isinstance(node, ExprConstraint) and self._types.is_apart(node.expression, names),
         )
 
@@ -361,6 +364,12 @@ def inverse_of(relation: str) -> str:
     """The relation that says the same with the tokens swapped; the same one where there is no other."""
     row = RELATIONS.get(relation)
     return row.inverse if row is not None and row.inverse is not None else relation
+
+
+def _is_unlike(edit: SmallEdit, names: LineScope) -> bool:
+    """Whether a variable stands then for one of the other type of numbers."""
+    kinds = {names.type_of(tuple(one.split("."))) for one in (edit.old, edit.new)}
+    return edit.kind is EditKind.NAME and kinds == set(_NUMBERS)
 
 
 def _lines(span: Span) -> tuple[int, int]:

@@ -19,6 +19,7 @@ class EditKind(StrEnum):
     TOKEN = "token"  # one token of a rule, for another
     PREDICATE = "predicate"  # of a child
     MISSION = "mission file"
+    SETTING = "setting"  # of a reactor in Python
     GOAL = "goal"  # what a goal asks for
     PROMISE = "property"  # what a property of the mission promises
     DROPPED_CONSTRAINT = "dropped constraint"
@@ -31,7 +32,7 @@ class EditKind(StrEnum):
     SWAP = "swapped lines"  # what two lines say, each in the place of the other
 
 
-OUTSIDE = (EditKind.MISSION, EditKind.GOAL, EditKind.PROMISE)  # of any model
+OUTSIDE = (EditKind.MISSION, EditKind.SETTING, EditKind.GOAL, EditKind.PROMISE)  # of any model
 DROPPED = (EditKind.DROPPED_CONSTRAINT, EditKind.DROPPED_BRANCH)
 REPAIRS = (
     EditKind.TERM,

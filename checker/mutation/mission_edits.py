@@ -21,6 +21,7 @@ from runtime.executive.configuration import AgentConfiguration, GoalConfiguratio
 _PARAMETERS = "parameters"
 _NUMBER = re.compile(r"(?<![\w.])\d+(\.\d+)?")
 _SERIES = 3  # goals that each have a number of their own
+_FACTORS = (2.0, 10.0, 0.5, 0.1)
 _LONGER = 10  # times as many ticks, of a property
 
 
@@ -34,6 +35,9 @@ def mission_sites(mission: Mission) -> dict[tuple[str, int], list[EditSite]]:
             values = {"lookahead": ahead if reactor.lookahead not in (1, final) else None}
             values["latency"] = 1 if reactor.latency > 1 else None
             found["reactor", number] = list(_sites(text, text.reactor_path(number), values))
+        coded = sorted({path[1] for path in text.places if path[:1] == ("reactor",) and path[2:] == ("code",)}, key=str)
+        for number, table in enumerate(coded):
+            found["setting", number] = list(_settings(text, table))
         for number in range(len(mission.agent.goals)):
             found["goal", number] = list(_times(mission, number))
             found["asked", number] = list(_asked(mission, number))
@@ -55,7 +59,8 @@ def agent_with(mission: Mission, agent: AgentConfiguration, edit: SmallEdit) -> 
         return agent
     pairs = zip(changed.agent.goals, agent.goals, strict=True)
     goals = tuple(replace(goal, mandatory=known.mandatory) for goal, known in pairs)
-    return replace(agent, reactors=changed.agent.reactors, goals=goals, properties=changed.agent.properties)
+    agent = replace(agent, reactors=changed.agent.reactors, coded=changed.agent.coded, goals=goals)
+    return replace(agent, properties=changed.agent.properties)
 
 
 def _sites(text: MissionText, table: tuple[str | int, ...], values: Mapping[str, object]) -> Iterator[EditSite]:
@@ -64,6 +69,20 @@ def _sites(text: MissionText, table: tuple[str | int, ...], values: Mapping[str,
         if value is not None and path in text.places:
             kind = EditKind.PROMISE if table[0] == "property" else EditKind.MISSION
             yield _site(text, path, kind, [str(value)])
+
+
+def _settings(text: MissionText, table: object) -> Iterator[EditSite]:
+    """The numbers that a reactor in Python is given, each twice, ten times, half and a tenth as large."""
+    for path in [path for path in text.places if path[:1] == ("reactor",) and path[1:2] == (table,)]:
+        if path[2:3] == ("settings",) and len(path) > len(("reactor", table, "settings")):
+            said = text.value_span(path).text
+            if _NUMBER.fullmatch(said) and float(said):
+                yield _site(text, path, EditKind.SETTING, [_scaled(said, factor) for factor in _FACTORS])
+
+
+def _scaled(number: str, factor: float) -> str:
+    changed = float(number) * factor
+    return repr(round(changed, 12)) if "." in number else str(max(round(changed), 1))
 
 
 def _times(mission: Mission, number: int) -> Iterator[EditSite]:

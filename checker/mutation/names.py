@@ -28,8 +28,8 @@ def other_names(node: Any, names: LineScope) -> Iterator[tuple[Span, str]]:
     if not isinstance(node, PathExpr):
         return
     parts = _written(node.parts)
-    if parts[0] in names.objects and len(parts) == 1 and names.owner:
-        yield from ((node.span, other) for other in names.other_objects(parts[0]))
+    if parts[0] in names.objects and names.owner and not names.is_local(parts[0]):
+        yield from ((node.span, other) for other in names.beside(parts))
         return
     kind = names.type_of(parts) or names.enum_of(parts) or ("float" if parts[0] in names.constants else "")
     if names.is_value(kind):

@@ -80,10 +80,19 @@ class LineScope:
         if kind in _NUMBERS:
             yield from self.constants
 
-    def other_objects(self, name: str) -> Iterator[str]:
-        """The other objects of the class that an object is made of."""
-        kind = self.objects.get(name)
-        yield from (other for other, known in self.objects.items() if known == kind and other != name)
+    def is_local(self, name: str) -> bool:
+        """Whether a name is one of the rule."""
+        return name in self.variables or name in self.tokens
+
+    def beside(self, parts: tuple[str, ...]) -> Iterator[str]:
+        """The other objects of the class of an object, or their same members, and its other members of the type."""
+        kind = self.objects[parts[0]]
+        behind = "".join(f".{part}" for part in parts[1:])
+        yield from (f"{other}{behind}" for other, known in self.objects.items() if known == kind and other != parts[0])
+        members = self.members.get(kind, {})
+        for name, known in members.items() if len(parts) == 2 else ():  # the object and its member
+            if name != parts[1] and known == members.get(parts[1]):
+                yield f"{parts[0]}.{name}"
 
 
 @dataclass(frozen=True, slots=True)

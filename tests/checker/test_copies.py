@@ -66,6 +66,7 @@ Lock::Pass {
     use.time == end;
     one.size == true;
     use.quantity == one.size * SHARE + WAIT;
+    start <= summer.shuts;
     duration <= 90;
 }
 Gate::Fill {
@@ -165,6 +166,8 @@ def test_rows_of_a_table_that_are_put_in_order_were_swapped(sites: list[EditSite
 def test_another_object_and_a_member_of_another_one_may_be_meant(sites: list[EditSite], usage: Usage) -> None:
     used = line(sites, "use.object == sea;")
     assert edit(used, EditKind.NAME, "lake")
+    shuts = {one.new for one in line(sites, "start <= summer.shuts;").edits if one.kind is EditKind.NAME}
+    assert {"summer.opens", "spring.shuts", "autumn.shuts"} <= shuts
     size = line(sites, "first.litres == one.size;")
     assert edit(size, EditKind.NAME, "two.size")
     assert edit(line(sites, "two.old"), EditKind.NAME, "one.old")
@@ -228,6 +231,18 @@ def test_another_value_of_a_condition_is_not_doubted_where_one_changed_nothing(s
         turns.add(at, candidate, one)
     turns.doubt(site, value.begin)
     assert turns.pop()[2] is value
+
+
+def test_tokens_come_as_they_are_asked_for(sites: list[EditSite], usage: Usage) -> None:
+    site = line(sites, "first before second;")
+    turned, other = edit(site, EditKind.RELATION, "after"), edit(site, EditKind.RELATION, "meets")
+    assert usage.orders.as_written(turned, site) == -1 and usage.orders.as_written(other, site) == 0
+
+
+def test_a_whole_number_is_hardly_meant_for_a_real_one(sites: list[EditSite], usage: Usage) -> None:
+    site = line(sites, "second.litres == two.size;")
+    assert (edit(site, EditKind.NAME, "second.pipes").begin, "second.pipes") in site.unlike
+    assert (edit(site, EditKind.NAME, "first.litres").begin, "first.litres") not in site.unlike
 
 
 def test_it_is_said_of_how_many_missions_some_were_tried() -> None:

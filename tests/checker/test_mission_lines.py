@@ -237,3 +237,16 @@ def test_the_story_tells_who_asked_for_it_and_by_when(tmp_path: Path, capsys: py
     capsys.readouterr()
     assert run(["explain", "latest", *kept]) == 0
     assert "boss requests Do(n=1) on step, to end by tick 20" in capsys.readouterr().out
+
+
+def test_what_a_reactor_in_python_is_given_may_be_another_number(tmp_path: Path) -> None:
+    (tmp_path / "lock.nddl").write_text(MODEL, encoding="utf-8")
+    (tmp_path / "winch.py").write_text("class Winch: ...\n", encoding="utf-8")
+    coded = '[[reactor]]\nname = "winch"\ncode = "winch.py:Winch"\n[reactor.settings]\nwire = 80.0\nside = "left"\n'
+    (tmp_path / "mission.toml").write_text(coded + MISSION.replace("[mission]", "[mission]", 1), encoding="utf-8")
+    mission, found = read_mission(tmp_path / "mission.toml")
+    assert mission is not None, found
+    (site,) = mission_sites(mission)["setting", 0]
+    assert [one.new for one in site.edits] == ["160.0", "800.0", "40.0", "8.0"]
+    changed = agent_with(mission, mission.agent, site.edits[0])
+    assert dict(changed.coded[0].settings) == {"wire": 160.0, "side": "left"}
