@@ -358,9 +358,7 @@ class _Trials:
         site = trial.candidate.site
         known = {one.edit: one for one in helping if one.edit != trial.edit}
         others = dict.fromkeys((*known, *alternatives(trial.edit, site, usage)))
-        for edit in sorted(
-            others, key=lambda one: (is_loosening(one, site), one not in known, cost_of(one, site, usage))
-        ):
+        for edit in sorted(others, key=lambda one: (is_loosening(one, site), cost_of(one, site, usage))):
             if not self.may_go_on(0 if edit in known else 1) or self.fly(edit, against).verdict is not Verdict.PASS:
                 continue
             other = known.get(edit)
