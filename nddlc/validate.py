@@ -238,7 +238,7 @@ def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> _Jud
     _refuse(analysis.diagnostics)
     program = compile_model(analysis)
     plan = read_plan(data, _base(program, _PLAN), program)._replace(reactor=_PLAN)
-    report, followed = judge_plan(program, plan)
+    report, followed = judge_plan(program, plan, is_whole="last_tick" not in data)
     names = names_of(program)
     timelines = tuple(each.name for each in plan.objects if names.is_kind_of(each.class_name, "Timeline"))
     last = max([plan.last_tick, *[one.end for one in plan.tokens if isinstance(one.end, int)]])

@@ -135,6 +135,7 @@ class Bench:
         self.infers = False  # whether runs that are not on record are found out
         self.runs: dict[int, list[BodyRun]] = {}  # those that were
         self.told: frozenset[str] | None = None  # the classes of whose objects all tokens are known; None: all
+        self.is_whole = False  # whether nothing comes after what is known
         self.found: list[Disagreement] = []
         self.profiles: list[ResourceProfile] = []
         self.judged = 0

@@ -165,6 +165,8 @@ def may_be_outside(bench: Bench, child: Child, pairs: tuple[Demand, ...], origin
     class_name = child.predicate.rpartition(".")[0]
     if bench.told is not None and class_name not in bench.told:
         return True
+    if bench.is_whole:
+        return False
     if origin is None:
         return True
     for first, second, lower, upper in pairs:

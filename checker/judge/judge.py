@@ -102,15 +102,19 @@ def judge_plan(
     record: ReactorRecord,
     constraints: Sequence[Constraint] = (),
     told: frozenset[str] | None = None,
+    *,
+    is_whole: bool = False,
 ) -> tuple[JudgeReport, ReactorRecord]:
     """Judge a plan by itself: no owner and no draws; the plan comes back with the runs that were found out.
 
-    `told` names the classes of whose objects all tokens are known; without it the plan has all tokens.
+    `told` names the classes of whose objects all tokens are known; without it the plan has all tokens up to its last
+    tick, and none comes later if it `is_whole`.
     """
     judge = _judge_of(program, constraints)
     bench = Bench(record, record.last_tick, _undrawn)
     bench.infers = True
     bench.told = told
+    bench.is_whole = is_whole
     _judge_model(judge, bench, None)
     judge_timelines(judge, bench, None, {}, (), ())
     tokens = tuple([one._replace(runs=tuple(bench.runs.get(one.key, one.runs))) for one in record.tokens])

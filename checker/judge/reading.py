@@ -133,6 +133,7 @@ def read_token(data: Any, number: int, program: Program, types: TypedValues) -> 
     if "object" not in data:
         raise DocumentError(f"{where} lacks `object`", f"the name of an object of the class `{code.class_name}`")
     thing = types.read(data["object"], TypeCode("object", code.class_name, None), f"{where}: `object`")
+    code = _own(code, thing, program, types)
     return TokenRecord(
         key,
         code.name,
@@ -158,6 +159,12 @@ def _predicate(name: str, program: Program, where: str) -> PredicateCode:
     if same:
         raise DocumentError(f"{where}: `predicate` lacks its class", f"write `{'` or `'.join(same)}`")
     raise unknown(f"{where}: the model has no predicate `{name}`", name, known)
+
+
+def _own(code: PredicateCode, thing: Value, program: Program, types: TypedValues) -> PredicateCode:
+    """The predicate of a resource's own class, where that of the built-in class is named: the events are the same."""
+    own = f"{types.objects.get(str(thing), '')}.{code.name.rpartition('.')[2]}"
+    return next((each for each in program.predicates if each.name == own), code) if code.span is None else code
 
 
 def _arguments(given: Any, code: PredicateCode, types: TypedValues, where: str) -> tuple[Value, ...]:

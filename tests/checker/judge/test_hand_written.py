@@ -104,6 +104,41 @@ def test_a_plan_is_judged_by_what_its_model_says(
     assert run(["validate", str(plan)]) == (0 if holds else 1)
 
 
+ANY = "A::p { any(B.r c); c.start == end; c.k == n; }"
+TANK = """class Tank extends Reservoir { Tank() { super(10.0, 0.0, 20.0); } } Tank t = new Tank();
+A::p { any(t.consume u); u.time == end; u.quantity == 2.0 * n; }"""
+
+
+def drain(time: int, quantity: float, owner: str = "Tank") -> Token:
+    return event("consume", time, quantity) | {"predicate": f"{owner}.consume", "object": "t"}
+
+
+@pytest.mark.parametrize(
+    ("rules", "tokens", "last", "holds"),
+    [
+        (ANY, [p(), r(10, 12)], None, True),
+        (ANY, [p()], None, False),
+        (ANY, [p(), r(11, 12)], None, False),
+        (ANY, [p(), r(10, 12, 4)], None, False),
+        (ANY, [p()], 20, True),  # it may come later
+        (TANK, [p(), drain(10, 2.0)], None, True),
+        (TANK, [p(), drain(10, 2.0, "Reservoir")], None, True),
+        (TANK, [p()], None, False),
+        (TANK, [p(), drain(9, 2.0)], None, False),
+        (TANK, [p(), drain(10, 3.0)], None, False),
+    ],
+)
+def test_a_plan_without_a_last_tick_is_whole(
+    tmp_path: Path, rules: str, tokens: list[Token], last: int | None, holds: bool
+) -> None:
+    """What `any` asks for was never missed: it might have come after whatever was told."""
+    (tmp_path / "m.nddl").write_text(MODEL.format(rules=rules, objects=""))
+    plan = tmp_path / "plan.json"
+    ends = {} if last is None else {"last_tick": last}
+    plan.write_text(json.dumps({"model": "m.nddl", "tokens": tokens, **ends}))
+    assert run(["validate", str(plan)]) == (0 if holds else 1)
+
+
 TWICE = """A::p { contains(B.r first); first.start == start; first.k == n;
 contains(B.r second); first before second; second.k == n + 1; second.end == end; }"""
 
