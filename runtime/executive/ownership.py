@@ -10,7 +10,7 @@ class OwnershipError(ValueError):
 
 
 def in_order(reactors: Sequence[TeleoReactor]) -> list[TeleoReactor]:
-    """Reactors with owners before users, otherwise as given (T-REX 1.3).
+    """Reactors with owners before users: a walk in the order given, each behind the owners that it uses (T-REX 1.3).
 
     Raises `OwnershipError` where a timeline has no owner or several, or where owners depend on each other.
     """
@@ -20,20 +20,23 @@ def in_order(reactors: Sequence[TeleoReactor]) -> list[TeleoReactor]:
             if timeline in owner:
                 raise OwnershipError(f"`{timeline}` is owned by `{owner[timeline].name}` and by `{reactor.name}`")
             owner[timeline] = reactor
-    waiting = list(reactors)
+    for reactor in reactors:
+        for timeline in reactor.external:
+            if timeline not in owner:
+                raise OwnershipError(f"`{reactor.name}` uses `{timeline}`, which no reactor owns")
     done: list[TeleoReactor] = []
-    while waiting:
-        for reactor in waiting:
-            for timeline in reactor.external:
-                if timeline not in owner:
-                    raise OwnershipError(f"`{reactor.name}` uses `{timeline}`, which no reactor owns")
-            if all(owner[timeline] in done for timeline in reactor.external):
-                break
-        else:
-            names = ", ".join(f"`{reactor.name}`" for reactor in waiting)
-            raise OwnershipError(f"reactors wait for each other's timelines in a cycle: {names}")
-        waiting.remove(reactor)
-        done.append(reactor)
+    for reactor in reactors:
+        walk = [reactor]
+        while walk:
+            behind = [owner[timeline] for timeline in walk[-1].external if owner[timeline] not in done]
+            if walk[-1] in done or not behind:
+                done += [one for one in (walk.pop(),) if one not in done]
+            elif behind[0] in walk:
+                cycle = walk[walk.index(behind[0]) :]
+                names = ", ".join(f"`{one.name}`" for one in reactors if one in cycle)
+                raise OwnershipError(f"reactors wait for each other's timelines in a cycle: {names}")
+            else:
+                walk.append(behind[0])
     return done
 
 

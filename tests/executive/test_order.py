@@ -7,6 +7,7 @@ import pytest
 from checker.flight import fly_programs
 from checker.mission import read_mission
 from checker.models import load_models
+from tests.executive.flying import fly, lines, planner, simulator
 from tests.programs import programs_of
 
 MODEL = """#include "TREX.nddl"
@@ -39,3 +40,20 @@ def test_the_file_decides(tmp_path: Path, order: tuple[str, str]) -> None:
     agent = load_models(mission).agent
     outcome = fly_programs(agent, programs_of(agent), 1)
     assert tuple(dict.fromkeys(event.reactor for event in outcome.events if event.reactor)) == order
+
+
+def test_a_failing_user_comes_right_behind_its_owners_and_ends_the_tick_for_all_others() -> None:
+    step = 'class {0} extends AgentTimeline {{ predicate A {{ }} predicate B {{ }} {0}(Mode m) {{ super(m, "A"); }} }} '
+    turns = "{0}::A {{ duration == 5; meets(object.B b); }} {0} {1} = new {0}(Internal); close();"
+    watch = f"{step.format('Src')} Src::B {{ start <= 3; }} Src src = new Src(Observe); close();"
+    outcome = fly(
+        planner("watch", watch, external="src"),
+        simulator("other", step.format("Far") + turns.format("Far", "far"), "far"),
+        simulator("owner", step.format("Src") + turns.format("Src", "src"), "src"),
+    )
+    assert lines(outcome, "observation", "abort") == [
+        "0 observation owner src A",
+        "0 observation other far A",
+        "5 observation owner src B",
+        "5 abort watch src F2: no Src.B can start at tick 5",
+    ]
