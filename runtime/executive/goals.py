@@ -42,6 +42,7 @@ class Goals:
         self.given_up: dict[int, OpenGoal] = {}  # mandatory ones, by the number of the request
         self.is_changed = False  # something was posted or taken out of the plan
         self.repair: Repair | None = None
+        self.loosened: list[tuple[int, int, float, float]] = []
         self.rejections: dict[int, Deadlock] = {}  # what the planner knows of the goals that it has rejected
 
     # ---- taking in ----
@@ -247,6 +248,27 @@ class Goals:
                 goal.is_closed = True
                 self._drop(goal, ReasonKind.REJECTED, tick)
                 self.bench.remove([goal.token])
+
+    def loosen(self) -> bool:
+        """Free what runs of the bounds of those who asked for it: it is fact, what they asked is not (T-REX 1.9)."""
+        for line in self.timelines:
+            if line.is_internal and line.current != NOTHING:
+                self.loosened += self.bench.free_of_requests(line.current)
+        return len(self.loosened) > 0
+
+    def bind(self, tick: int) -> None:
+        """Bind what runs by what was asked about it, where that still can be; otherwise who asked is told."""
+        bench, loosened, self.loosened = self.bench, self.loosened, []
+        for token, variable, lower, upper in loosened:
+            mark = bench.mark()
+            holds = bench.within(variable, (lower, upper), SPAN_REQUEST, token)
+            if not holds:
+                bench.rewind_to(mark)
+            bench.commit()
+            for goal in self.live() if not holds else []:
+                if goal.token == token and goal.token_key == bench.key(token):
+                    goal.is_closed = True
+                    self._drop(goal, ReasonKind.CUT_LOOSE, tick)
 
     # ---- the tick ----
 

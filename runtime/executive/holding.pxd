@@ -7,7 +7,7 @@ from runtime.executive.workbench cimport Workbench
 from runtime.plan.store.plan cimport Plan
 
 cdef long long END, FLAG_ACTION, FLAG_CONDITION, FLAG_EFFECT, INFINITY, NONE, ROLE_TOKEN
-cdef long long SPAN_CLOCK, SPAN_EXECUTIVE, SUPPORT_EDGE, SUPPORT_RESTRICTION
+cdef long long SPAN_CLOCK, SPAN_EXECUTIVE, START, SUPPORT_EDGE, SUPPORT_RESTRICTION
 
 
 @cython.locals(ends=list, start="long long")
@@ -24,8 +24,8 @@ cpdef bint is_tied(Workbench bench, long long end, long long start) except -1
 @cython.locals(e="long long", ends=list, engine=Engine, first="long long", i="long long", met=SparseSet, v="long long")
 cpdef list _awaited_ends(Workbench bench, long long t, long long current, long long tick)
 
-@cython.locals(_="long long", engine=Engine, is_own=bint, plan=Plan, support="long long", v="long long")
-cpdef bint _is_held_back(Workbench bench, long long t, long long tick) except -1
+@cython.locals(_="long long", engine=Engine, other="long long", plan=Plan, support="long long", v="long long")
+cpdef bint _is_held_back(Workbench bench, long long t, long long current, long long tick) except -1
 
 @cython.locals(other="long long", plan=Plan)
 cpdef bint _is_awaited(Workbench bench, long long v, long long t, long long current, long long tick) except -1

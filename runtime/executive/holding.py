@@ -1,6 +1,6 @@
 """What holds a planned token back: an end on another reactor's timeline that is still to be observed."""
 
-from compiler.program import END
+from compiler.program import END, START
 from runtime.constraints.domains.tags import SUPPORT_EDGE, SUPPORT_RESTRICTION
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE
 from runtime.executive.workbench import Workbench
@@ -16,7 +16,7 @@ def is_blocked(bench: Workbench, t: int, current: int, tick: int) -> bool:
     ends, start = _awaited_ends(bench, t, current, tick), bench.start(t)
     while ends and is_tied(bench, ends[len(ends) - 1], start):
         ends.pop()
-    return len(ends) > 0 or _is_held_back(bench, t, tick)
+    return len(ends) > 0 or _is_held_back(bench, t, current, tick)
 
 
 def hangs_on_action(bench: Workbench, t: int) -> bool:
@@ -43,7 +43,7 @@ def free_at(bench: Workbench, t: int, current: int, tick: int) -> float:
     for v in _awaited_ends(bench, t, current, tick):
         if not is_tied(bench, v, start):
             free = max(free, tick + engine.upper(start) - engine.lower(v))
-    return INFINITY if _is_held_back(bench, t, tick) else free
+    return INFINITY if _is_held_back(bench, t, current, tick) else free
 
 
 def is_tied(bench: Workbench, end: int, start: int) -> bool:
@@ -78,8 +78,12 @@ def _awaited_ends(bench: Workbench, t: int, current: int, tick: int) -> list[int
     return ends
 
 
-def _is_held_back(bench: Workbench, t: int, tick: int) -> bool:
-    """Whether the earliest start of `t` rests on another token that has not begun, and may do so only later."""
+def _is_held_back(bench: Workbench, t: int, current: int, tick: int) -> bool:
+    """Whether the earliest start of `t` rests on another token that goes on, or has not begun, and only for now.
+
+    `current` does not hold `t` back: it ends when `t` begins. Nor does what somebody asked for: it begins as soon as it
+    may, so what it needs is asked for at once.
+    """
     engine, plan = bench.engine, bench.plan
     v = bench.start(t)
     for _ in range(engine.edges_used):
@@ -90,8 +94,10 @@ def _is_held_back(bench: Workbench, t: int, tick: int) -> bool:
     support = engine.lower_support[v]
     if support < 0 or support & 3 != SUPPORT_RESTRICTION or plan.variable_role[v] != ROLE_TOKEN:
         return False
-    is_own = bench.stands_for(plan.variable_owner[v]) == bench.stands_for(t)
-    return bool(engine.restriction_span[support >> 2] == SPAN_CLOCK) and not is_own and engine.upper(v) > tick
+    other = bench.stands_for(plan.variable_owner[v])
+    if other in (bench.stands_for(t), current) or (plan.variable_name[v] == START and bench.is_requested(other)):
+        return False
+    return bool(engine.restriction_span[support >> 2] == SPAN_CLOCK) and engine.upper(v) > tick
 
 
 def _is_awaited(bench: Workbench, v: int, t: int, current: int, tick: int) -> bool:

@@ -173,7 +173,10 @@ class PlanReactor(TeleoReactor):
                     continue
                 self.goals.give_up_failed_starts(tick)
             failure = self._prepare(tick) or self._synchronise(tick)
+            if failure is not None and attempt and self.goals.loosen():
+                failure = self._prepare(tick) or self._synchronise(tick)
             if failure is None:
+                self.goals.bind(tick)
                 self.goals.report_rejected(tick)
                 if self.goals.close(tick, self.dispatch):
                     self.goals.reopen()

@@ -12,7 +12,7 @@ from runtime.plan.tokens.retraction cimport cancel, remove_tokens, wake_guards
 from runtime.plan.tokens.timelines cimport order
 from runtime.plan.tokens.tokens cimport make_token
 
-cdef long long ACTIVE, END, FIRST_PARAMETER, FLAG_DECISION, FLAG_FACT, FLAG_GOAL, FLAG_REJECTABLE, INACTIVE, KIND_FLOAT, LISTS
+cdef long long ACTIVE, END, FIRST_PARAMETER, FLAG_DECISION, FLAG_FROZEN, FLAG_FACT, FLAG_GOAL, FLAG_REJECTABLE, INACTIVE, KIND_FLOAT, LISTS
 cdef long long LIST_ORDER, MERGED, NONE, OBJECT
 cdef double INFINITY, inf
 

@@ -4,7 +4,7 @@ from math import inf
 
 from compiler.program import END, FIRST_PARAMETER, OBJECT, DomainConstant
 from runtime.constraints.domains.arrays import grow_rows
-from runtime.constraints.domains.tags import FLAG_DECISION, KIND_FLOAT
+from runtime.constraints.domains.tags import FLAG_DECISION, FLAG_FROZEN, KIND_FLOAT
 from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.messages import Arguments
 from runtime.executive.timelines import TimelineState
@@ -282,6 +282,22 @@ class Workbench(PlanView):
         if needless:
             engine.retract((), (), needless, ())
             fire(self.plan)
+
+    def free_of_requests(self, t: int) -> list[tuple[int, int, float, float]]:
+        """Free a token of what was asked of its end and length: whose token asked, the variable, its bounds."""
+        engine, asked, limits = self.engine, [], []
+        who = t
+        while who >= 0:
+            for v in (self.end(who), self.duration(who)):
+                for r in engine.restrictions_of(v):
+                    if engine.restriction_span[r] == SPAN_REQUEST and not engine.restriction_flags[r] & FLAG_FROZEN:
+                        asked.append((who, v, float(engine.restriction_lo[r]), float(engine.restriction_hi[r])))
+                        limits.append(r)
+            who = int(self.rows.merged[t] if who == t else self.rows.merged_next[who])
+        if limits:
+            engine.retract((), (), limits, ())
+            fire(self.plan)
+        return asked
 
     def detach(self, t: int) -> None:
         """Let a token stay when the one that asked for it goes."""

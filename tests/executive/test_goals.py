@@ -201,7 +201,7 @@ def test_a_goal_that_cannot_begin_is_tried_once_more_and_then_given_up() -> None
         "0 request user Busy(k=2)",
         "2 request user lamp On(n=2)",
         "3 relax user keeping the past: User.Busy#2 cannot start at tick 3",
-        "4 request user lamp On(n=2)",
+        "3 request user lamp On(n=2)",
         "6 relax user keeping the past: User.Busy#2 cannot start at tick 6",
         "6 reject user user Busy(k=2): the planner found no place for it (User.Busy#2 cannot start at tick 6)",
     ]
@@ -220,3 +220,37 @@ def test_the_mission_file_takes_a_goal_back() -> None:
     assert history(begun, "user")[1:] == ["3 Busy(k=[-inf +inf])", "9 Idle"]
     over = fly(user(rules), lamp(""), goals=busy(start=(3, 20), recall=12), until=30)
     assert open_goals(over) == [] and lines(over, "achieved")
+
+
+@pytest.mark.parametrize("bounds", [{"duration": (3.0, 3.0)}, {"end": (8.0, 8.0)}])
+def test_what_a_goal_asks_of_its_end_is_given_up_where_the_world_takes_longer(bounds: dict[str, object]) -> None:
+    rules = "User::Busy { equals(Lamp.On on); on.n == k; }"
+    goals = busy(parameters=(("k", 1),), start=(5, 5), **bounds)
+    outcome = fly(user(rules), lamp("Lamp::On { duration == 6; }"), goals=goals, until=20)
+    kinds = ("relax", "reject", "abort", "achieved")
+    told = [(event.tick, event.kind.value, event.reactor) for event in outcome.events if event.kind.value in kinds]
+    assert told == [(8, "relax", "user"), (8, "reject", "user"), (11, "achieved", "sim")]
+    assert history(outcome, "user") == ["0 Idle", "5 Busy(k=1)", "11 Idle"]
+    assert len(open_goals(outcome)) == 1
+
+
+def test_what_a_goal_asks_of_its_end_still_holds_after_a_repair_for_another_reason() -> None:
+    mood = 'class Mood extends AgentTimeline { predicate Low { } predicate High { } Mood(Mode m) { super(m, "Low"); } }'
+    rules = "Mood::High { any(Lamp.On on); on.n == 1; on.start >= 1; on.start <= 7; }"
+    objects = "User user = new User(Internal); Mood mood = new Mood(Internal); Lamp lamp = new Lamp(Observe); close();"
+    goals = (
+        GoalConfiguration("user", "Busy", start=(5, 5), duration=(6, 6), parameters=(("k", 1),)),
+        GoalConfiguration("mood", "High", start=(9, 9)),
+    )
+    watcher = planner("user", f"{LAMP}{USER}{mood}{rules}{objects}", "user mood", "lamp")
+    outcome = fly(watcher, lamp(""), goals=goals, until=20)
+    assert [event.tick for event in outcome.events if event.kind is EventKind.RELAX] == [7]
+    assert lines(outcome, "achieved") == ["11 achieved user user Busy(k=1)"]
+
+
+def test_an_end_that_a_sender_took_back_does_not_end_the_owner() -> None:
+    rules = "User::Busy { equals(Lamp.On on); on.n == k; }"
+    goals = busy(parameters=(("k", 1),), start=(5, 5), duration=(3.0, 3.0), recall=7)
+    outcome = fly(user(rules), lamp("Lamp::On { duration == 6; }"), goals=goals, until=20)
+    assert lines(outcome, "abort") == []
+    assert history(outcome, "user") == ["0 Idle", "5 Busy(k=1)", "11 Idle"]
