@@ -21,6 +21,7 @@
 #   make truths       conditions of models whose truth is known, each on FRESH (2000) fresh missions
 #   make kills        KILLS (20) batches killed by SIGKILL and as many by SIGTERM, resumed, beside undisturbed ones
 #   make agents       AGENTS (500) random missions of random reactors, flown in every way and put to an oracle of their traces
+#   make second       AGENTS (500) random missions beside a second agent, written from the specification alone, trace by trace
 #   make cases        every small mission several times in one process, whatever the one before has left behind
 #   make variants     the eight mistakes of models/auv/bugs, each explained
 #   make mutants      MUTANTS (2000) faulty missions, flown compiled, interpreted and by the general engine, and judged
@@ -51,7 +52,7 @@ TICKING := $(BIN)/python build_backend/ticking.py
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build engine lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study judge-study conflict-study controllability-proof study truths kills cases variants mutants agents renames editor-proof vsix conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build engine lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study judge-study conflict-study controllability-proof study truths kills cases variants mutants agents second renames editor-proof vsix conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -199,6 +200,10 @@ agents: build
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich --deep
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich --deep --ranks --batches 50
+
+second: build
+	$(BIN)/python -m tests.executive.second.campaign $(AGENTS)
+	NDDLC_CASES=all $(PYTEST) tests/executive/test_second.py
 
 renames: build
 	NDDLC_RENAMES=all $(PYTEST) tests/lsp/test_rename_everything.py

@@ -1,0 +1,135 @@
+"""What a reactor of the second agent asks of owners, what it takes back, and what holds a request back."""
+
+from tests.executive.second.description import FAR
+from tests.executive.second.plan import Goal
+from tests.executive.second.reactor import Reactor, Request
+
+
+def dispatch(reactor: Reactor) -> tuple[list[Request], list[Request]]:
+    """What is taken back and what is asked for."""
+    plan = reactor.plan
+    wanted = {one.token for one in reactor.requests if one.token is not None}
+    merged = {plan.stands_for(one) for one, state in enumerate(plan.state) if state == "merged"}
+    reactor.requests = [one for one in reactor.requests if not _is_over(reactor, one)]
+    lost = [one for one in reactor.requests if one.token is None or _is_void(reactor, one, one.token, merged)]
+    for request in lost:
+        wanted.discard(request.token)
+    asks = []
+    for timeline in reactor.part.external:
+        for place, one in enumerate(plan.sequence.get(timeline, [])):
+            if plan.state[one] != "active" or one in wanted:
+                continue
+            again = next((old for old in lost if old.token is None and _same(reactor, old, one)), None)
+            if again is not None:
+                again.token = one
+                lost.remove(again)
+            elif _held(reactor, timeline, place, one):
+                break
+            else:
+                request = Request(_goal(reactor, one), one)
+                asks.append(request)
+                wanted.add(one)
+                reactor.requests.append(request)
+    for one_lost in lost:
+        reactor.requests.remove(one_lost)
+    return lost, asks
+
+
+def _is_over(reactor: Reactor, request: Request) -> bool:
+    token, plan = request.token, reactor.plan
+    return token is not None and plan.state[token] == "begun" and plan.ends(token)[1] <= reactor.tick
+
+
+def _is_loose(reactor: Reactor, token: int, merged: set[int]) -> bool:
+    return reactor.plan.tokens[token].parent is None and token not in merged
+
+
+def _is_void(reactor: Reactor, request: Request, token: int, merged: set[int]) -> bool:
+    """Whether its token was cut loose, not met, overtaken, or given up by its owner and has more room now."""
+    plan, goal = reactor.plan, request.goal
+    if _is_loose(reactor, token, merged) or not request.is_kept:
+        return True
+    if plan.state[token] != "active":
+        return False
+    if goal.state in ("begun", "over"):
+        return True
+    asked = {one.token for one in reactor.requests}
+    line = plan.planned(goal.timeline)
+    if any(one not in asked for one in line[: line.index(token)]):
+        return True
+    if request.refused:
+        now = _goal(reactor, token)
+        pairs = ((now.start, goal.start), (now.end, goal.end), (now.duration, goal.duration))
+        return any(one[0] < other[0] or one[1] > other[1] for one, other in pairs)
+    return False
+
+
+def _same(reactor: Reactor, request: Request, token: int) -> bool:
+    goal, mine = request.goal, reactor.plan.tokens[token]
+    low, high = reactor.plan.window(token)
+    return (
+        (goal.timeline, goal.predicate, goal.arguments) == (mine.timeline, mine.predicate, reactor.plan.values(token))
+        and goal.start == (low, high)
+        and request.is_kept
+        and not request.refused
+    )
+
+
+def _goal(reactor: Reactor, number: int) -> Goal:
+    plan, token = reactor.plan, reactor.plan.tokens[number]
+    arguments = {name: value for name, value in plan.values(number).items() if value is not None}
+    assert len(arguments) == len(token.arguments), "an argument is not determined"
+    start, end = plan.window(number), plan.ends(number)
+    # The length is a number of its own (EUROPA): what only chains of other tokens say of it is not known.
+    low, high = plan.net.low[token.length], plan.net.high[token.length]
+    length = (max(low, end[0] - start[1]), min(high, end[1] - start[0]))
+    if reactor.owners[token.timeline].lookahead <= 1:
+        end, length = (-FAR, FAR), (1, FAR)
+    return Goal(
+        reactor.number(), token.timeline, token.predicate, arguments, start, end, length, sender=reactor.part.name
+    )  # fmt: skip
+
+
+def _held(reactor: Reactor, timeline: str, place: int, number: int) -> bool:
+    plan, owner = reactor.plan, reactor.owners[timeline]
+    token, net = plan.tokens[number], plan.net
+    low, high = plan.window(number)
+    for other in plan.tokens:
+        if plan.state[other.number] == "active" and other.timeline in reactor.part.internal:
+            if other.timeline in reactor.part.early or plan.goals_of[other.number]:
+                continue
+            far = net.distance(token.start, other.start)
+            if far <= 0:
+                low = max(low, net.high[other.start] - far)
+    if low > reactor.tick + owner.latency + owner.lookahead or owner.lookahead == 0:
+        return True
+    if low >= reactor.description.final:
+        return True
+    if high <= reactor.tick + 1:
+        return False
+    asked = {one.token for one in reactor.requests}
+    if place > 0:
+        before = plan.sequence[timeline][place - 1]
+        refused = any(one.token == before and one.refused for one in reactor.requests)
+        if before in asked and (refused or not _is_tied(reactor, plan.tokens[before].end, token.start)):
+            return True
+    for other in plan.tokens:
+        if other.timeline == timeline or other.timeline in reactor.part.internal:
+            continue
+        here = other.number
+        over = plan.state[here] == "begun" and plan.current[other.timeline] != here
+        follows = net.follows(token.start, other.end) and not _is_tied(reactor, other.end, token.start)
+        if plan.state[here] in ("active", "begun") and not over and follows:
+            line = plan.sequence[other.timeline]
+            after = line[line.index(here) + 1] if here != line[-1] else None
+            if after is not None and net.distance(plan.tokens[after].start, token.start) == 0:
+                if net.distance(token.start, plan.tokens[after].start) == 0:
+                    continue
+            return True
+    return False
+
+
+def _is_tied(reactor: Reactor, end: int, start: int) -> bool:
+    """Whether something has to start at the very tick of an end."""
+    net = reactor.plan.net
+    return net.distance(end, start) == 0 or net.high[start] <= net.low[end]

@@ -1,0 +1,342 @@
+"""A reactor of the second agent: it synchronises, plans, asks owners, and takes back what it asked for."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from tests.executive.second.description import Description, Part
+from tests.executive.second.network import ContradictionError
+from tests.executive.second.plan import Draw, Goal, Plan
+from tests.executive.second.present import News, Now, PresentError, bound, completed, fold_in, repaired
+
+Tell = Callable[..., None]
+KEEPING, FORGETTING, PLANLESS = "keeping the past", "forgetting the past", "no plan"
+
+
+@dataclass(eq=False, slots=True)
+class Request:
+    """What was asked of an owner, and the own token that it stands for."""
+
+    goal: Goal
+    token: int | None
+    refused: bool = False
+    is_kept: bool = True  # in a repair: who needs it has begun
+
+
+@dataclass(slots=True)
+class Owner:
+    """What a user knows of the owner of a timeline."""
+
+    latency: int  # of execution
+    lookahead: int
+
+
+@dataclass(slots=True)
+class Reactor:
+    """One reactor in flight."""
+
+    description: Description
+    part: Part
+    latency: int  # of execution
+    owners: dict[str, Owner]
+    tell: Tell
+    draw: Draw
+    number: Callable[[], int]
+    plan: Plan = field(init=False)
+    goals: list[Goal] = field(default_factory=list)
+    requests: list[Request] = field(default_factory=list)
+    tick: int = 0
+
+    def __post_init__(self) -> None:
+        self.plan = Plan(self.description, self.part, self.draw)
+        for first in self.part.firsts:
+            here = self.plan.new(first.timeline, first.predicate)
+            self.plan.net.within(self.plan.tokens[here].start, 0, 0)
+            for name, value in first.arguments:
+                self.plan.net.within(self.plan.tokens[here].arguments[name], value, value)
+            self.plan.insert(here, 0)
+
+    @property
+    def simulates(self) -> bool:
+        """It looks one tick ahead at most."""
+        return self.part.lookahead <= 1
+
+    # The present
+
+    def synchronise(self, tick: int, news: dict[str, News]) -> list[News]:
+        """Settle the present; what own timelines begin to hold."""
+        self.tick = tick
+        for request in self.requests:
+            request.refused = request.refused and request.goal.state != "begun"
+        before, first = self.plan, None
+        tokens, states = [one.token for one in self.requests], [one.state for one in self.goals]
+        attempts = (("", True), (KEEPING, True), (KEEPING, False), (FORGETTING, True), (FORGETTING, False))
+        told = ""
+        for stage, binds in attempts:
+            for request, token in zip(self.requests, tokens, strict=True):
+                request.token = token
+            for goal, state in zip(self.goals, states, strict=True):
+                goal.state = state
+            try:
+                plan = before.copy()
+                plan.now = tick
+                if stage:
+                    if stage != told:
+                        self.tell("relax", self.part.name, stage=stage)
+                    told = stage
+                    plan = self._relax(before, stage == FORGETTING, binds)
+                plan.settle()
+                asked = {one.goal: one.token for one in self.requests if one.token is not None}
+                now = Now(tick, self.description.final, news, asked)
+                plan = self._settled(plan, now, places=bool(stage))
+            except (PresentError, ContradictionError) as failure:
+                if first is None:
+                    first = self._coded(failure, before)
+                    self._blame(before, news)
+                continue
+            found = self._committed(plan, tick, news)
+            if not binds:
+                self._bind()
+            return found
+        for request, token in zip(self.requests, tokens, strict=True):
+            request.token = token
+        assert first is not None
+        raise first
+
+    def _settled(self, plan: Plan, now: Now, places: bool) -> Plan:
+        """The present, as the first way of taking in what is observed allows it."""
+        first: PresentError | None = None
+        try:
+            for folded in fold_in(plan, now):
+                if places and self.simulates and now.tick < self.description.final:
+                    folded = self._with_goals(folded, now.tick, reports=False)
+                try:
+                    return completed(folded, now)
+                except PresentError as failure:
+                    first = first or failure
+        except PresentError as failure:
+            first = first or failure
+        raise first or PresentError("F2")
+
+    def _blame(self, plan: Plan, news: dict[str, News]) -> None:
+        """Count failures of the present in which what a goal had asked for began; the second gives it up."""
+        begun = [one for told in news.values() for one in told.answers]
+        for goal in self.goals:
+            if goal.state == "placed" and any(one in begun for one in self._needs(plan, goal)):
+                goal.failures += 1
+
+    def _needs(self, plan: Plan, goal: Goal) -> list[Goal]:
+        """What was asked of owners for a goal."""
+        found = []
+        for request in self.requests:
+            if request.token is None:
+                continue
+            agenda = [one.number for one in plan.tokens if plan.stands_for(one.number) == request.token]
+            while agenda:
+                here = agenda.pop()
+                if goal in plan.goals_of[plan.stands_for(here)]:
+                    found.append(request.goal)
+                    break
+                parent = plan.tokens[here].parent
+                agenda += [] if parent is None else [parent]
+        return found
+
+    def _coded(self, failure: Exception, plan: Plan) -> PresentError:
+        if not isinstance(failure, PresentError):
+            return PresentError("F3")
+        if failure.code == "F1" and failure.missed is not None:
+            token = plan.tokens[failure.missed] if failure.missed < len(plan.tokens) else None
+            if any(one.refused and token is not None and one.token == token.number for one in self.requests):
+                return PresentError("F6", failure.timeline, failure.missed)
+        return failure
+
+    def _bind(self) -> None:
+        """Hold what runs to what was asked of it, where that can still be; else who asked is told."""
+        for here in self.plan.current.values():
+            for goal in self.plan.goals_of[here]:
+                trial = self.plan.copy()
+                try:
+                    bound(trial, here, goal)
+                    self.plan = trial
+                except ContradictionError:
+                    if goal in self.goals:
+                        self._reject(goal)
+                        self.goals.remove(goal)
+
+    def _relax(self, plan: Plan, forgets: bool, binds: bool = True) -> Plan:
+        relaxed, moved = repaired(plan, forgets, binds)
+        for request in self.requests:
+            parents = [one.parent for one in plan.tokens if plan.stands_for(one.number) == request.token]
+            request.is_kept = any(parent in moved for parent in parents)
+            request.token = None if request.token is None else moved.get(request.token)
+        for goal in self.goals:
+            if goal.state in ("placed", "rejected") and goal.start[1] >= self.tick:
+                goal.state = "open"
+                if goal.failures >= 2:
+                    self._reject(goal)
+        relaxed.now = self.tick
+        return relaxed
+
+    def _committed(self, plan: Plan, tick: int, news: dict[str, News]) -> list[News]:
+        self.plan = plan
+        found = []
+        for timeline in self.part.internal:
+            here = plan.current[timeline]
+            if plan.window(here)[0] != tick:
+                continue
+            for goal in self.goals:
+                if goal.timeline == timeline and goal.state == "begun":
+                    goal.state = "over"
+                    old = next(one for one in plan.sequence[timeline] if goal in plan.goals_of[one])
+                    length = tick - plan.window(old)[0]
+                    is_cut = self._is_cut_off(plan, goal, news) or not (
+                        goal.end[0] <= tick <= goal.end[1] and goal.duration[0] <= length <= goal.duration[1]
+                    )
+                    self.tell(
+                        "reject" if is_cut else "achieved",
+                        self.part.name,
+                        goal.timeline,
+                        goal.predicate,
+                        goal.arguments,
+                        goal.number,
+                    )
+            for goal in plan.goals_of[here]:
+                goal.state = "begun"
+            token = plan.tokens[here]
+            arguments = {name: value for name, value in plan.values(here).items() if value is not None}
+            assert len(arguments) == len(token.arguments), "an argument is not determined"
+            found.append(News(timeline, token.predicate, arguments, plan.goals_of[here]))
+        for goal in self.goals:
+            if goal.state in ("open", "placed") and goal.start[1] <= tick:
+                self._reject(goal)
+            elif goal.state == "open":
+                goal.is_told = False  # that it comes back and is rejected again is told anew
+        return found
+
+    def _is_cut_off(self, plan: Plan, goal: Goal, news: dict[str, News]) -> bool:
+        """Whether an owner has given up what a goal needs, or has failed while it did it."""
+        for request in self.requests:
+            told = news.get(request.goal.timeline)
+            if request.refused or (told is not None and told.predicate == "Failed"):
+                if request.goal in self._needs(plan, goal):
+                    return True
+        return False
+
+    def _reject(self, goal: Goal) -> None:
+        goal.state = "rejected"
+        if goal.is_told:
+            return
+        goal.is_told = True
+        self.tell("reject", self.part.name, goal.timeline, goal.predicate, goal.arguments, goal.number)
+
+    # The future
+
+    def accept(self, goal: Goal) -> str:
+        """Take in what somebody asks for; why it is refused, if it is."""
+        kind = self.description.kind(goal.timeline)
+        names = kind.parameters(goal.predicate)
+        if self.part.lookahead == 0:
+            return "no lookahead"
+        if names is None or (goal.timeline, goal.predicate) in self.part.lacks:
+            return "no such predicate"
+        for timeline, predicate, name, low, high in self.part.ranges:
+            if (timeline, predicate) == (goal.timeline, goal.predicate):
+                if not low <= goal.arguments.get(name, low) <= high:
+                    return "an argument does not fit"
+        if goal.start[1] <= self.tick:
+            return "too late"
+        goal.state, goal.order = "open", len(self.goals)
+        self.goals.append(goal)
+        return ""
+
+    def take_back(self, goal: Goal) -> None:
+        """A goal is recalled: what has begun goes on."""
+        if goal.state == "begun":
+            self.goals.remove(goal)
+        elif goal in self.goals:
+            self.goals.remove(goal)
+            if goal.state == "placed":
+                gone = self._needs(self.plan, goal)
+                self.plan = self._present_again(self._relax(self.plan, False))
+                for request in self.requests:
+                    request.is_kept = request.goal not in gone
+        goal.state = "gone"
+
+    def _present_again(self, plan: Plan) -> Plan:
+        for here in plan.current.values():
+            plan.net.least(plan.tokens[here].end, self.tick + 1)
+        return plan
+
+    @property
+    def horizon(self) -> int:
+        """Up to where it plans."""
+        return min(self.tick + self.latency + max(1, self.part.lookahead), self.description.final)
+
+    def deliberate(self) -> None:
+        """Plan what is open; PresentError if something has no place that cannot be given up."""
+        plan = self._with_goals(self.plan, self.tick + 1)
+        found = self._closed(plan)
+        if found is None:
+            self.tell("relax", self.part.name, stage=PLANLESS)
+            plan = self._present_again(self._relax(self.plan, False))
+            found = self._closed(self._with_goals(plan, self.tick + 1))
+            if found is None:
+                raise PresentError("F4")
+        self.plan = found
+
+    def _with_goals(self, plan: Plan, earliest: int, reports: bool = True) -> Plan:
+        base = self._closed(plan)
+        waiting = [goal for goal in self.goals if goal.state == "open"]
+        for goal in sorted(waiting, key=lambda one: (max(one.start[0], earliest), one.order)):
+            if max(goal.start[0], earliest) > self.horizon and goal.start[1] >= earliest:
+                continue
+            if max(goal.start[0], earliest) >= self.description.final:
+                continue
+            found = None if base is None else self._with_goal(plan, goal, earliest)
+            if found is not None:
+                goal.state, goal.is_told, plan = "placed", False, found
+            elif reports:
+                self._reject(goal)
+        return plan
+
+    def _with_goal(self, plan: Plan, goal: Goal, earliest: int) -> Plan | None:
+        trial = plan.copy()
+        try:
+            here = trial.new(goal.timeline, goal.predicate, goal=goal)
+            token = trial.tokens[here]
+            trial.net.within(token.start, max(goal.start[0], earliest), goal.start[1])
+            trial.net.within(token.end, *goal.end)
+            trial.last(here, *goal.duration)
+            for name, value in goal.arguments.items():
+                trial.net.within(token.arguments[name], value, value)
+        except ContradictionError:
+            return None
+        found = []
+        for placed in trial.resolved(here):
+            closed = self._closed(placed)
+            if closed is not None:
+                found.append(closed)
+        if len(found) > 1:
+            found[0].choices += 1
+        return found[0] if found else None
+
+    def _closed(self, plan: Plan) -> Plan | None:
+        for one in sorted(plan.open(), key=lambda number: (plan.window(number)[0], number)):
+            token = plan.tokens[one]
+            low = plan.window(one)[0]
+            if low > self.horizon or (low >= self.description.final and low > self.tick):
+                continue
+            own = token.timeline in self.part.internal
+            if own and self.simulates and not self._hangs_on_goal(plan, one):
+                continue
+            found = [closed for each in plan.resolved(one) if (closed := self._closed(each)) is not None]
+            if len(found) > 1:
+                found[0].choices += 1
+            return found[0] if found else None
+        return plan
+
+    def _hangs_on_goal(self, plan: Plan, number: int | None) -> bool:
+        while number is not None:
+            if plan.goals_of[number]:
+                return True
+            number = plan.tokens[number].parent
+        return False
