@@ -4,6 +4,7 @@ What is read has the form of `mission.toml`, and is checked with it; only what X
 """
 
 import os
+import re
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -337,6 +338,7 @@ class _AgentFile:
 
 
 _NO_PLUGIN = 'reactors in Python are loaded by `<PythonReactor code="file.py:Class"/>`'
+_FIRST_ELEMENT = re.compile(r"\ufeff?(?:\s|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>]*>)*<Agent\b", re.DOTALL)
 _FOREIGN = (
     "reactors of T-REX's plug-ins are not here: let a simulator in NDDL (`<EuropaReactor model=.../>`) or a reactor in "
     "Python (`<PythonReactor code=.../>`) own their timelines, or play their log (`<LogPlayer file=.../>`)"
@@ -344,6 +346,11 @@ _FOREIGN = (
 _ASKS_ITSELF = "the owner decides what it takes, and a reactor in Python what it asks for"
 _NO_PLANS = "plans are not published, only observations"
 _ONE_SOLVER = "the present is synchronised with the flaw handling of `plan_cfg`"
+
+
+def is_agent(source: Source) -> bool:
+    """Whether a text in XML is an agent file, by its first element."""
+    return _FIRST_ELEMENT.match(source.text) is not None
 
 
 def read_agent_file(source: Source, root: Path) -> tuple[MissionText, TomlTable | None]:

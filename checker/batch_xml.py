@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from xml.parsers import expat
 
 from checker.codes import ILL_BATCH, NO_EFFECT
+from checker.written_mission import key_text
 from nddl_lang.text.byte_places import BytePlaces
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.nearest import nearest
@@ -179,7 +180,10 @@ def _parameter(node: _Node, complaints: list[Diagnostic]) -> tuple[ParameterConf
         complaints.append(ILL_BATCH.at(node.span, reason="`UpdateFrequency` must be at least 1"))
     seed = values["BatchSampler"].get("Seed", common.get("Seed"))
     listed = (lower,) if shape == "fixed" else ()
-    made = ParameterConfiguration(name, lower, upper, shape, mode, max(update, 1), clip, is_whole, listed)
+    mean, deviation = (given.get("Mean"), given.get("StdDev")) if shape == "normal" else (None, None)
+    made = ParameterConfiguration(
+        name, lower, upper, shape, mode, max(update, 1), clip, is_whole, listed, mean=mean, deviation=deviation
+    )
     return made, None if seed is None else int(seed)
 
 
@@ -273,11 +277,15 @@ def batch_toml(batch: BatchFile) -> str:
     """A batch file as tables of a mission file."""
     lines = ["[check]", f"seed = {batch.seed}", ""] if batch.seed is not None else []
     for one in batch.parameters:
-        lines.append(f"[parameters.{one.name if _is_bare(one.name) else _quoted(one.name)}]")
+        lines.append(f"[parameters.{key_text(one.name)}]")
         if one.distribution == "fixed":
             lines += [f"value = {one.lower!r}", ""]
             continue
-        lines += [f"range = [{one.lower!r}, {one.upper!r}]", f'distribution = "{one.distribution}"']
+        if one.mean is None:
+            lines.append(f"range = [{one.lower!r}, {one.upper!r}]")
+        lines.append(f'distribution = "{one.distribution}"')
+        if one.mean is not None:
+            lines += [f"mean = {one.mean!r}", f"sigma = {one.deviation!r}"]
         if one.clip is not None:
             lines.append(f"clip = [{one.clip[0]!r}, {one.clip[1]!r}]")
         if one.is_whole:
@@ -285,12 +293,3 @@ def batch_toml(batch: BatchFile) -> str:
         lines += ['mode = "intra"', f"update = {one.update}"] if one.mode == "intra" else ['mode = "inter"']
         lines.append("")
     return "\n".join(lines).rstrip("\n") + "\n"
-
-
-def _is_bare(name: str) -> bool:
-    return all(sign.isascii() and (sign.isalnum() or sign in "_-") for sign in name)
-
-
-def _quoted(name: str) -> str:
-    escaped = name.replace("\\", "\\\\").replace('"', '\\"')
-    return f'"{escaped}"'

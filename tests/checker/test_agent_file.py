@@ -141,3 +141,21 @@ def test_reactors_in_python_have_their_settings(place: Path) -> None:
     (coded,) = agent_in(place / "agent.xml").coded
     assert (coded.file, coded.class_name, coded.external) == ("probe.py", "Probe", ("gps",))
     assert coded.settings == (("level", 3), ("ratio", 0.5))
+
+
+def test_an_agent_file_is_converted_to_a_mission_file(place: Path) -> None:
+    text = AGENT.replace(
+        "<Goal on", '<PythonReactor name="eye" code="eye.py:Eye" level="0.5" label="a &quot;b&quot;"/><Goal on'
+    )
+    (place / "eye.py").write_text("class Eye:\n    pass\n")
+    (place / "agent.xml").write_text(text.replace("<RealTimeClock", "<!-- said once --><RealTimeClock"))
+    written = place / "converted.toml"
+    assert run(["convert", str(place / "agent.xml"), "--output", str(written)]) == 0
+    assert agent_in(written) == agent_in(place / "agent.xml")
+    assert "[reactor.settings]\nlevel = 0.5\n" in written.read_text()
+
+
+def test_an_agent_file_with_a_mistake_is_not_converted(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (place / "agent.xml").write_text(AGENT.replace("<Use file", "<Uses file"))
+    assert run(["convert", str(place / "agent.xml")]) == 2
+    assert "no element `Uses`" in capsys.readouterr().err

@@ -60,7 +60,9 @@ def test_every_component_is_converted() -> None:
     half = 1.5 * 3.0**0.5
     assert batch.parameters == (
         ParameterConfiguration("a", 0.0, 38.0, "uniform", is_whole=True),
-        ParameterConfiguration("b", 2.0 - half, 2.0 + half, "normal", "intra", clip=(0.5, float("inf"))),
+        ParameterConfiguration(
+            "b", 2.0 - half, 2.0 + half, "normal", "intra", clip=(0.5, float("inf")), mean=2.0, deviation=1.5
+        ),
         ParameterConfiguration("c.d", 2.5, 2.5, "fixed", values=(2.5,)),
         ParameterConfiguration("e", 1.0, 3.0, "normal"),
     )
@@ -68,6 +70,9 @@ def test_every_component_is_converted() -> None:
     assert tables["check"] == {"seed": 5}
     assert tables["parameters"]["a"] == {"range": [0, 38], "distribution": "uniform", "kind": "int", "mode": "inter"}
     assert tables["parameters"]["c.d"] == {"value": 2.5}
+    normal = {"distribution": "normal", "mean": 2.0, "sigma": 1.5, "clip": [0.5, float("inf")]}
+    assert tables["parameters"]["b"] == {**normal, "mode": "intra", "update": 10}
+    assert tables["parameters"]["e"] == {"range": [1.0, 3.0], "distribution": "normal", "mode": "inter"}
 
 
 @pytest.mark.parametrize(
