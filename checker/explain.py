@@ -24,9 +24,9 @@ from checker.rendering import (
     step_label,
     step_text,
 )
-from checker.report.sentences import counted
 from checker.sampling.rendering import number
 from checker.story import Step, StepKind, Story
+from nddl_lang.text.printable import counted
 from runtime.executive.outcome import SourcePlace
 
 MOST_CAUSES = 3

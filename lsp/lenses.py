@@ -10,6 +10,7 @@ from lsp.occurrences import Role, SymbolType
 from lsp.open_text import DocumentContext
 from nddl_lang.semantics.schema import Predicate
 from nddl_lang.syntax.nodes import ClassDecl, Identifier, PredicateDecl, Statement
+from nddl_lang.text.printable import counted
 from nddl_lang.text.source import Span
 
 # Carried out by the editor, which asks for the places then.
@@ -27,10 +28,10 @@ def code_lenses(view: DocumentContext) -> list[CodeLens]:
             if here is None or here.symbol.type not in _DECLARES:
                 continue
             count = sum(each.role is not Role.DECLARES for each in view.snapshot.names.of(here.symbol))
-            lenses.append(_lens(view, name.span, _count(count, "reference"), _SHOW_REFERENCES))
+            lenses.append(_lens(view, name.span, counted(count, "reference"), _SHOW_REFERENCES))
             predicate = view.snapshot.analysis.tables.declared.get(name)
             if isinstance(predicate, Predicate):
-                lenses.append(_lens(view, name.span, _count(len(rules_of(view, predicate)), "rule"), _SHOW_RULES))
+                lenses.append(_lens(view, name.span, counted(len(rules_of(view, predicate)), "rule"), _SHOW_RULES))
     return lenses
 
 
@@ -44,7 +45,3 @@ def _lens(view: DocumentContext, at: Span, title: str, command: str) -> CodeLens
     place = view.document.lines.range(at.begin, at.finish)
     arguments: list[Any] = [view.document.uri, place.start]
     return CodeLens(place, Command(title, command, arguments=arguments))
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}" if number == 1 else f"{number} {word}s"

@@ -1,6 +1,5 @@
 """End a long search when time is over or somebody presses Ctrl-C, and tell meanwhile how far it has come."""
 
-import shutil
 import signal
 import sys
 import threading
@@ -10,6 +9,7 @@ from types import FrameType
 import click
 
 from checker.batch.signals import Echo
+from nddlc.fitting import terminal_width
 from runtime.solver.search import Solver
 from runtime.user.limit import WATCH
 
@@ -69,5 +69,5 @@ class Clock:
 
     def _write(self, line: str) -> None:
         """Put a line where the last one stood."""
-        room = max(shutil.get_terminal_size((80, 24)).columns - 1, 1)
+        room = max(terminal_width() - 1, 1)
         click.echo(f"\r{line[:room]:<{min(room, 70)}}\r", err=True, nl=False)

@@ -28,8 +28,13 @@ _AHEAD = 12  # columns shown of what is marked
 def columns() -> int | None:
     """How wide the terminal is; None where nobody looks, and lines may be as long as they are."""
     if sys.stdout.isatty() or os.environ.get("COLUMNS", "").isdigit():
-        return shutil.get_terminal_size((100, 24)).columns
+        return terminal_width()
     return None
+
+
+def terminal_width() -> int:
+    """How many columns the terminal has, or would have."""
+    return shutil.get_terminal_size((100, 24)).columns
 
 
 def colours() -> bool:

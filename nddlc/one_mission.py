@@ -7,11 +7,11 @@ import click
 from checker.mission import Mission, read_mission
 from checker.models import ModelSet
 from checker.names import relative_name
-from checker.report.sentences import counted
 from checker.sampling.rendering import describe
 from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.nearest import nearest
+from nddl_lang.text.printable import counted
 from nddl_lang.text.render import render
 from nddlc.fitting import colours, columns, fitted
 from nddlc.inputs import Unusable, readable

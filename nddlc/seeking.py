@@ -1,11 +1,12 @@
 """Show how many flights were made to find out why missions fail, on standard error."""
 
-import shutil
 import sys
 import time
 from types import TracebackType
 
 import click
+
+from nddlc.fitting import terminal_width
 
 BAR_SECONDS = 0.2  # between two looks on a terminal
 LINE_SECONDS = 4.0  # between two plain lines
@@ -41,7 +42,7 @@ class SeekingDisplay:
         text = f"{self._done}: {flights} flights in {now - self._begun:.0f} s"
         is_long = self._most and now - self._begun > _PATIENCE
         hint = " (quicker: --no-conditions)" if is_long else self._most
-        if len(text + hint) < shutil.get_terminal_size().columns:
+        if len(text + hint) < terminal_width():
             text += hint
         if self._is_terminal:
             click.echo(f"\r\x1b[K{text}", nl=False, err=True)

@@ -3,7 +3,7 @@
 from typing import Any
 
 from checker.coverage import Coverage, SiteCoverage
-from checker.report.sentences import counted
+from nddl_lang.text.printable import counted
 
 _MOST = 40
 

@@ -9,8 +9,9 @@ from checker.excerpts import Excerpts
 from checker.explain import place_data
 from checker.losses import GoalFate
 from checker.rendering import kind_text
-from checker.report.sentences import counted, missions
+from checker.report.sentences import missions
 from checker.tally import GoalTally, RepairTally, Tally, UnmetTally
+from nddl_lang.text.printable import counted
 from runtime.executive.outcome import Reason
 from runtime.executive.rendering import reason_text
 

@@ -11,6 +11,7 @@ from checker.regression import FlownCase
 from checker.rendering import failure_text
 from checker.sampling.rendering import number
 from checker.statistics import Interval
+from nddl_lang.text.printable import counted
 
 _ENDINGS = {Ending.SECONDS: "time was over", Ending.FAILURES: "failures enough", Ending.DECIDED: "decided"}
 _METHODS = {
@@ -25,11 +26,6 @@ _MOST_CASES = 8
 def percent(share: float) -> str:
     """A share as people read it, such as `5.5 %`."""
     return f"{_percentage(share)} %"
-
-
-def counted(count: int, word: str) -> str:
-    """`1 goal`, `2 goals`."""
-    return f"{count} {word}{'' if count == 1 else 's'}"
 
 
 def explained_by(findings: Findings, number: int, quote: str = "") -> str:

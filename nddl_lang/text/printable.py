@@ -16,3 +16,8 @@ def printable(text: str) -> str:
 def but_colours(text: str) -> str:
     """A page that may have colours, with a sign for each other command to a terminal."""
     return _BUT_COLOURS.sub(lambda found: found[0] if len(found[0]) > 1 else _SIGN, text)
+
+
+def counted(count: int, word: str) -> str:
+    """`1 goal`, `2 goals`."""
+    return f"{count} {word}{'' if count == 1 else 's'}"
