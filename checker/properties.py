@@ -7,7 +7,7 @@ being violated (in units of the argument, or in ticks); it steers the adaptive s
 import ast
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from checker.judge.report import ResourceProfile
 from compiler.program import TOKEN_TIMES
@@ -21,19 +21,21 @@ from runtime.executive.configuration import (
 )
 from runtime.executive.expression import ExpressionError, parse_expression
 from runtime.executive.outcome import Event, EventKind, PropertyFate
-from runtime.executive.record import MissionRecord, ReactorRecord, TokenRecord
+from runtime.executive.record import MissionRecord, ReactorRecord, TokenRecord, ValueRange
 
 _ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
 class _Held:
-    """A token that was executed: `end` is infinite while it goes on; its arguments by name."""
+    """A token that was executed, with its arguments by name: `end` is infinite while it goes on, to `least_end` at
+    least."""
 
     predicate: str
     start: int
     end: float
     arguments: Mapping[str, object]
+    least_end: float
 
 
 def property_fates(
@@ -53,7 +55,7 @@ def property_fates(
     def history(timeline: str) -> list[_Held]:
         if timeline not in histories:
             found = _history(agent, timeline, arguments, record, last_tick)
-            histories[timeline] = _published(timeline, events) if found is None else found
+            histories[timeline] = _published(timeline, events, last_tick) if found is None else found
         return histories[timeline]
 
     def fate(one: PropertyConfiguration) -> PropertyFate:
@@ -116,11 +118,12 @@ def _history(
         end = float(token.end) if isinstance(token.end, int | float) else math.inf
         given = dict(zip(arguments.get(token.predicate, ()), token.arguments, strict=False))
         given |= {"start": start, "end": end, "duration": end - start}
-        found.append(_Held(token.predicate.rpartition(".")[2], start, end, given))
+        least = max(last_tick + 1.0, token.end.lower if isinstance(token.end, ValueRange) else end)
+        found.append(_Held(token.predicate.rpartition(".")[2], start, end, given, least if end == math.inf else end))
     return sorted(found, key=lambda one: (one.start, one.end))
 
 
-def _published(timeline: str, events: Sequence[Event]) -> list[_Held]:
+def _published(timeline: str, events: Sequence[Event], last_tick: int) -> list[_Held]:
     """What was published on a timeline, in order: each value holds until the next, of two in a tick the later."""
     seen = [each for each in events if each.kind is EventKind.OBSERVATION and each.timeline == timeline]
     ends = [*(float(each.tick) for each in seen[1:]), math.inf]
@@ -128,7 +131,7 @@ def _published(timeline: str, events: Sequence[Event]) -> list[_Held]:
     for each, end in zip(seen, ends, strict=True):
         if end > each.tick:
             given = _given(each) | {"start": each.tick, "end": end, "duration": end - each.tick}
-            held.append(_Held(each.predicate, each.tick, end, given))
+            held.append(_Held(each.predicate, each.tick, end, given, min(end, last_tick + 1.0)))
     return held
 
 
@@ -173,7 +176,7 @@ def _fate(
             raise AssertionError("levels are no tokens")
         case PropertyKind.ALWAYS:
             told = _told_of(pattern, held)
-            spans = [(token, _margin(pattern, token)) for token in told if token.start <= last and token.end > first]
+            spans = [(token, _best(pattern, token)) for token in told if token.start <= last and token.end > first]
         case PropertyKind.NEVER:
             spans = [(token, -_margin(pattern, token)) for token in held if token.start <= last and token.end > first]
             spans = [(token, -1e-300 if margin == 0.0 else margin) for token, margin in spans]
@@ -193,7 +196,7 @@ def _fate(
             if stop > last:
                 return PropertyFate(one.name, False, min(last, last_tick), last - stop)
             told = _told_of(pattern, held)
-            spans = [(token, _margin(pattern, token)) for token in told if token.start < stop and token.end > first]
+            spans = [(token, _best(pattern, token)) for token in told if token.start < stop and token.end > first]
     worst = next((token for token, margin in spans if margin < 0.0), None)
     least = min((margin for _, margin in spans), default=math.inf)
     is_void = one.kind is PropertyKind.WITHIN and least == math.inf
@@ -207,7 +210,26 @@ def _told_of(pattern: TokenPattern, held: list[_Held]) -> list[_Held]:
 
 
 def _margin(pattern: TokenPattern, token: _Held) -> float:
-    """How far a token is from not matching: negative where it does not, infinite where no number decides."""
+    """How far a token is from not matching: negative where it does not, infinite where no number decides.
+
+    One that goes on matches if it does whenever it ends.
+    """
+    return min(_margins(pattern, token))
+
+
+def _best(pattern: TokenPattern, token: _Held) -> float:
+    """The same, where it is promised to match: one that goes on matches as long as it may still."""
+    return max(_margins(pattern, token))
+
+
+def _margins(pattern: TokenPattern, token: _Held) -> list[float]:
+    if token.end < math.inf:
+        return [_margin_of(pattern, token)]
+    soonest = {"end": token.least_end, "duration": token.least_end - token.start}
+    return [_margin_of(pattern, each) for each in (token, replace(token, arguments={**token.arguments, **soonest}))]
+
+
+def _margin_of(pattern: TokenPattern, token: _Held) -> float:
     if pattern.predicate and token.predicate != pattern.predicate:
         return -math.inf
     least = math.inf
@@ -247,6 +269,8 @@ def _condition_margin(node: ast.expr, given: Mapping[str, float]) -> float:
         case ast.Compare(left=left, ops=[ast.Lt() | ast.LtE() | ast.Gt() | ast.GtE() as op], comparators=[right]):
             less, more = (left, right) if isinstance(op, ast.Lt | ast.LtE) else (right, left)
             gap = _number(more, given) - _number(less, given)
+            if math.isnan(gap):
+                return -math.inf
             is_strict = isinstance(op, ast.Lt | ast.Gt)
             return -1e-300 if gap == 0.0 and is_strict else gap
         case _:
@@ -254,9 +278,8 @@ def _condition_margin(node: ast.expr, given: Mapping[str, float]) -> float:
 
 
 def _number(node: ast.expr, given: Mapping[str, float]) -> float:
-    text = ast.unparse(node)
     try:
-        return parse_expression(text).value(given)
+        return parse_expression(ast.unparse(node)).limit(given)
     except ExpressionError:
         return math.nan
 

@@ -61,7 +61,7 @@ def _finding_text(finding: StudyFinding) -> str:
     if not finding.finds:
         return head + "no mission failed"
     found = ", ".join(f"{one.sampling} {percent(one.rate)}" for one in finding.finds)
-    text = head + f"found by {found}"
+    text = head + (f"found by {found}" if finding.variant.edits else f"missions fail under {found}")
     if finding.worse:
         worse = ", ".join(one.sampling for one in finding.worse)
         text += f"; {finding.finds[0].sampling} finds it more often than {worse}"

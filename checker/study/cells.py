@@ -116,7 +116,6 @@ def campaign_of(study: StudyFile, variant: Variant, sampling: str, base: Campaig
         max_failure_rate=1.0,
         confidence=study.confidence,
         time_limit=study.time_limit,
-        limits=(),
     )
     mission: Mission = replace(base.mission, check=check)
     models: ModelSet = replace(base.models, agent=agent)

@@ -58,6 +58,13 @@ class Expression:
             raise ExpressionError("its value is not finite")
         return found
 
+    def limit(self, values: Mapping[str, float]) -> float:
+        """The value where some may be infinite; NaN where there is none."""
+        try:
+            return _evaluate(self.root, values)
+        except (ZeroDivisionError, ValueError, OverflowError):
+            return math.nan
+
 
 @lru_cache(maxsize=256)
 def parse_expression(text: str) -> Expression:

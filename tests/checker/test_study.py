@@ -12,9 +12,13 @@ import jsonschema
 import pytest
 
 from checker.batch.progress import Progress
+from checker.campaign import Campaign
+from checker.mission import read_mission
+from checker.models import load_models
+from checker.pinned import pinned
 from checker.sampling.seeds import mission_seed
 from checker.schemas import schema
-from checker.study.cells import StudyCell, findings_of, with_beyond
+from checker.study.cells import StudyCell, campaign_of, findings_of, with_beyond
 from checker.study.reading import Variant, read_study
 from nddlc.main import run
 from nddlc.progress import Display
@@ -94,6 +98,19 @@ def test_a_study_counts_what_the_draws_decide(folder: Path, capsys: pytest.Captu
 
 
 @pytest.mark.once
+def test_what_the_mission_limits_fails_a_mission_of_a_study_too(folder: Path) -> None:
+    """`nddlc check` and `nddlc study` told two rates of the same missions."""
+    file = folder / "mission.toml"
+    file.write_text(file.read_text().replace("[check]\n", "[check]\nmax_repairs = 0\n"))
+    mission, _ = read_mission(file)
+    study, _ = read_study(folder / "study.toml")
+    assert mission is not None and study is not None
+    models = load_models(mission)
+    (base, _) = study.variants
+    flown = campaign_of(study, base, "normal intra", Campaign(mission, models, pinned(models)))
+    assert flown.mission.check.limits == mission.check.limits != ()
+
+
 def test_more_missions_are_added_to_what_was_flown(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ["study", "gps/study.toml", "--variant", "base", "--workers", "1"]
     run([*arguments, "--missions", "3"])
