@@ -81,7 +81,8 @@ _CASE = 1.0  # odds that no two conditions of a rule ask for the same value
 _LAST_CASE = 2.0  # odds that no value of an enumeration is for nothing, where all others have their use
 _FREED = 2.0  # odds that a line which alone says what a variable is says it with `==`
 _WRITTEN = 1.0  # odds that tokens come in the order in which a rule asks for them
-_UNLIKE = 1.0  # odds that a whole number is not mistaken for a real one
+_AMONG = 0.4  # odds of each of so many constants for none of which anything speaks
+_UNLIKE = 1.5  # odds that a whole number is not mistaken for a real one
 _CONFUSED = 2.0  # odds that two numbers of one variable are not the same
 _DENIED = 2.0  # odds that two lines that agree on an order of tokens are right
 _FLOW = 2.0  # odds that a resource is both consumed and produced
@@ -137,6 +138,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             belongs = _KIN * usage.gain(edit, site) - _LAST_USE * (usage.strands(edit) and not usage.is_swapped(edit))
             belongs += _AGREES * ((edit.begin, edit.new) in site.agreeing)
             belongs -= _RANGE * (edit.new in usage.sampled)
+            if belongs <= 0.0 and not usage.is_swapped(edit):
+                belongs -= _AMONG * math.log(len(site.rivals(edit, EditKind.LIMIT)))
             return 1.5 - _IDLE * usage.is_swapped(edit) - belongs
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
             far = 0.0 if site.named and float(edit.old) == 0.0 else octaves(edit)  # who names a number has one

@@ -83,7 +83,7 @@ class EditSite:
     that is set here, a number if `is_number`; `is_rule`: it is the head of a rule, for which something may be missing.
     `begin` is its offset. `agreeing` edits, each by its offset and what it writes, give both sides of `==` one type.
     `is_apart`: the two can hardly be compared. `wanted` edits, given alike, make of a copy what it was copied for.
-    `unlike` edits, given alike, write a whole number for a real one, or the other way round.
+    `unlike` edits, given alike, write a whole number for a real one, or the other way round, unless they agree.
     `inputs` are the numbers, each with its type, that the token of a rule brings along, told at its head.
     `coded` is the constraint of the project's own that it calls, in Python.
     """
@@ -230,6 +230,7 @@ class _Reader:
         if isinstance(node, (CallConstraint, ExprConstraint)):
             edits.append(self._edit(EditKind.DROPPED_CONSTRAINT, node.span, _blank(node.span.text)))
         last = _lines(node.span)[1]
+        agreeing = self._agreeing(node, names, edits)
         file = self._files[node.span.source]
         return EditSite(
             file,
@@ -244,9 +245,9 @@ class _Reader:
             begin=node.span.begin,
             is_number=named in self._limits,
             coded=node.name.name if isinstance(node, CallConstraint) and node.name.name not in CONSTRAINTS else "",
-            agreeing=self._agreeing(node, names, edits),
+            agreeing=agreeing,
             wanted=frozenset((edit.begin, edit.new) for edit in (*edits, *more)) & self._copied,
-            unlike=frozenset((edit.begin, edit.new) for edit in edits if _is_unlike(edit, names)),
+            unlike=frozenset((edit.begin, edit.new) for edit in edits if _is_unlike(edit, names)) - agreeing,
             is_apart=isinstance(node, ExprConstraint) and self._types.is_apart(node.expression, names),
         )
 

@@ -2,9 +2,10 @@
 
     python -m tests.checker.fault_study [-v] [--only N,N] [--missions 8] [--flights 40] MODEL...
 
-A MODEL is a folder with a mission, and either a file with faults (`hand.toml`, `faults.toml`, or the file itself
-instead of its folder) or a folder `variants` in which each folder holds the files that one fault changed. A line
-that is gone counts as found by a cause in its rule. Flights are kept in build/, so that only what is new is flown.
+A MODEL is a folder with a mission, such as those of `unseen`, and either a file with faults (`hand.toml` or, as that of
+`fault_scheme`, `faults.toml`; the file itself stands for its folder) or a folder `variants` in which each folder holds
+the files that one fault changed. A line that is gone counts as found by a cause in its rule. Flights are kept in
+build/, so that only what is new is flown.
 """
 
 import shutil
