@@ -14,7 +14,7 @@ from runtime.executive.outcome import EventKind, Outcome, PropertyFate, Reason, 
 _GOALS_OPEN = "F10"
 _NO_RECORD = "F7"
 _BROKEN = "F11"
-_PROPERTY = "P1"
+PROPERTY = "P1"
 _LIMIT_CODES = {Limit.REJECTED: "L1", Limit.LATE: "L2", Limit.REPAIRS: "L3", Limit.UNDELIVERED: "L4"}
 USER_CODE = "USER"  # of an ERROR: a constraint that the project wrote in Python failed
 
@@ -76,7 +76,7 @@ def judge(outcome: Outcome) -> Judgement:
         return Judgement(Verdict.FAIL, _GOALS_OPEN, Reason(ReasonKind.GOALS_OPEN))
     broken = next((one for one in outcome.properties if not one.is_kept), None)
     if broken is not None:
-        return Judgement(Verdict.FAIL, _PROPERTY, broken=broken)
+        return Judgement(Verdict.FAIL, PROPERTY, broken=broken)
     if outcome.breaches:
         return Judgement(Verdict.FAIL, _BROKEN, outcome.breaches[0])
     return Judgement(Verdict.PASS)

@@ -13,12 +13,11 @@ from typing import Any
 
 from checker.batch.result import MissionResult
 from checker.conditions.space import fixed
-from checker.oracle import Verdict
+from checker.oracle import PROPERTY, Verdict
 from checker.sampling.sampler import RANDOM_POINT, SamplePoint, with_point
 from nddl_lang.text.values import toml_value
 from runtime.executive.configuration import AgentConfiguration, PropertyKind
 
-_PROPERTY = "P1"  # the code of a mission that violates one
 _NAME_ENDS = ".regressions.toml"
 
 
@@ -122,7 +121,7 @@ def agent_of(case: RegressionCase, agent: AgentConfiguration) -> AgentConfigurat
     if case.goals is not None:
         if any(not 0 <= number < len(agent.goals) for number in case.goals):
             raise RegressionError(f"case `{case.name}` has a goal that the mission file lacks")
-        is_whole = len(case.goals) == len(agent.goals) or case.was.startswith(_PROPERTY)
+        is_whole = len(case.goals) == len(agent.goals) or case.was.startswith(PROPERTY)
         agent = replace(agent, goals=tuple(agent.goals[number] for number in case.goals))
         if not is_whole:  # what is to be reached may be what a goal that was left out asks for
             kept = tuple(one for one in agent.properties if one.kind is not PropertyKind.REACHED)

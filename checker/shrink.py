@@ -12,8 +12,8 @@ from checker.batch.result import MissionResult
 from checker.buckets import bucket_key
 from checker.conditions.space import Point, Space
 from checker.contrast import SubsetSearch, Trace
-from checker.oracle import Verdict
-from runtime.executive.configuration import AgentConfiguration
+from checker.oracle import PROPERTY, Verdict
+from runtime.executive.configuration import AgentConfiguration, PropertyKind
 
 _MOST_DIGITS = 4  # behind the point
 
@@ -69,8 +69,11 @@ def shrink(
     if space.parameters:
         point, off = _nominal(shrinker, space, failed, point)
         point = _simplest(shrinker, space, point, off)
-    goals = _fewest_goals(shrinker)
-    _shortest(shrinker)
+    if _lacks_what_was_promised(failed, agent):  # without goals nothing would come about
+        goals = tuple(range(len(agent.goals)))
+    else:
+        goals = _fewest_goals(shrinker)
+        _shortest(shrinker)
     free = {one.name for one in Space(agent, results).parameters}
     return Shrunk(
         shrinker.result,
@@ -82,6 +85,13 @@ def shrink(
         shrinker.agent.final_tick,
         shrinker.flights,
     )
+
+
+def _lacks_what_was_promised(failed: MissionResult, agent: AgentConfiguration) -> bool:
+    """Whether a mission fails since something did not come about that a property promises."""
+    broken = {one.name for one in failed.outcome.properties if not one.is_kept} if failed.outcome else set()
+    kinds = {one.kind for one in agent.properties if one.name in broken}
+    return failed.judgement.code == PROPERTY and not kinds.isdisjoint((PropertyKind.REACHED, PropertyKind.UNTIL))
 
 
 def _space(shrinker: _Shrinker, results: Sequence[MissionResult]) -> Space:

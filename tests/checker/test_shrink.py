@@ -9,9 +9,13 @@ from pathlib import Path
 import pytest
 
 from checker.batch.result import MissionResult
+from checker.campaign import Campaign
 from checker.conditions.space import Space
 from checker.contrast import SubsetSearch, find_contrast
+from checker.mission import read_mission
+from checker.models import load_models
 from checker.oracle import Judgement, Verdict
+from checker.pinned import pinned
 from checker.regression import RegressionCase, RegressionError, agent_of, cases_text, read_cases
 from nddlc.main import run
 from runtime.executive.configuration import (
@@ -181,6 +185,51 @@ def test_a_promoted_mission_is_flown_first_until_it_passes(
     model.write_text(model.read_text().replace("r >= 2.0", "r >= -2.0"))
     assert run(["check", "mission.toml", "--flights", "2", "--missions", "2"]) == 0
     assert "flown first: none of them fails any more" in capsys.readouterr().out
+
+
+PUMP = """#include "TREX.nddl"
+float P = [0.0 10.0];
+class Pump extends AgentTimeline { predicate Wait { } predicate Stroke { } Pump(Mode m) { super(m, "Wait"); } }
+Pump::Stroke { float p; p == sampledParameter(P); duration == ceil(p) + 1; }
+Pump pump = new Pump(Internal);
+close();
+"""
+REACHED = """[mission]
+name = "pump"
+final_tick = 30
+[[reactor]]
+name = "sim"
+model = "pump.nddl"
+lookahead = 5
+[[goal]]
+timeline = "pump"
+predicate = "Stroke"
+start = [2, 4]
+[[property]]
+name = "done"
+kind = "reached"
+timeline = "pump"
+predicate = "Stroke"
+by = 6
+[check]
+missions = 4
+"""
+
+
+def test_goals_stay_where_something_promised_was_not_reached(tmp_path: Path) -> None:
+    """Without its goal the stroke is never reached, whatever is mended."""
+    (tmp_path / "pump.nddl").write_text(PUMP)
+    (tmp_path / "mission.toml").write_text(REACHED)
+    mission, found = read_mission(tmp_path / "mission.toml")
+    assert mission is not None, found
+    models = load_models(mission)
+    given = Campaign(mission, models, pinned(models))
+    results = flown(given)
+    failed = next(one for one in results if one.judgement.code == "P1")
+    shrunk = given.shrink(failed, results)
+    assert shrunk is not None
+    assert shrunk.goals == (0,)
+    assert dict(shrunk.values)["P"] > 3.0
 
 
 def test_what_only_a_goal_that_was_left_out_brings_about_is_not_asked_of_a_case() -> None:
