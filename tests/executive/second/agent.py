@@ -182,7 +182,7 @@ def _deliberate(flight: Flight, reactors: list[Reactor], owner_of: dict[str, Par
                 busy += [owner] * (owner not in busy)
     for reactor in reactors:
         for request in reactor.requests:
-            if request.goal.state == "rejected":
+            if request.goal.state in ("rejected", "cut"):
                 request.refused = True
 
 
@@ -198,9 +198,7 @@ def _failed(
     flight.tell("kill", reactor.part.name, code=failure.code)
     for request in reactor.requests:
         goal, owner = request.goal, _reactor(reactors, owner_of[request.goal.timeline])
-        begun, here = reactor.plan.current.get(goal.timeline), request.token
-        is_over = here is not None and reactor.plan.state[here] == "begun" and here != begun
-        if not is_over and owner.part.name not in dead:
+        if goal.state not in ("over", "gone") and owner.part.name not in dead:
             flight.tell("recall", reactor.part.name, goal.timeline, goal.predicate, goal.arguments, goal.number)
             owner.take_back(goal)
     for timeline in reactor.part.internal:

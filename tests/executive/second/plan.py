@@ -33,7 +33,7 @@ class Goal:
     end: tuple[int, int]
     duration: tuple[int, int]
     sender: str = ""  # of the mission file: empty
-    state: str = "waiting"  # open, placed, rejected, over, gone
+    state: str = "waiting"  # open, placed, begun, over, rejected, cut, gone
     recall: int | None = None
     order: int = 0
     is_told: bool = False  # that it was rejected

@@ -185,12 +185,12 @@ class Reactor:
                 continue
             for goal in self.goals:
                 if goal.timeline == timeline and goal.state == "begun":
-                    goal.state = "over"
                     old = next(one for one in plan.sequence[timeline] if goal in plan.goals_of[one])
                     length = tick - plan.window(old)[0]
                     is_cut = self._is_cut_off(plan, goal, news) or not (
                         goal.end[0] <= tick <= goal.end[1] and goal.duration[0] <= length <= goal.duration[1]
                     )
+                    goal.state = "cut" if is_cut else "over"
                     self.tell(
                         "reject" if is_cut else "achieved",
                         self.part.name,
