@@ -36,7 +36,7 @@ _KEPT = 0.3  # of the flights, at most, for that
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
 _PATCHED = 1.0  # what it counts that a mission passes after repairs alone
 _PROVEN = 0.15  # odds of a number that did before the failure what it is there for
-_UNTRIED = 0.3  # odds that a change helps in other missions, once it was tried in some
+_UNTRIED = 0.01  # what was tried in no other mission is behind what helps in all, and before what helps in some
 _NEAR, _SEARCHED = 0.25, 0.5  # distance of what a conflict speaks of, and of what ruled out a choice of a search
 _PROBE = -0.1  # when such a line is left out: where that helps, it is at fault or what it compares is
 _TURNED = 0.0  # and when the order of two of its tokens is turned round
@@ -99,8 +99,8 @@ class LineTrial:
     @property
     def weight(self) -> tuple[float, float, float]:
         """What causes are ranked by: missions that fail with it; what is lost, how likely it is, and how far off."""
-        change = self.toll + _FAR * self.candidate.far + _UNTRIED * self.is_untried + _PROVEN * self.candidate.is_proven
-        return self.spoilt + 1.0 - self.helped / self.missions, change, self.cost
+        change = self.toll + _FAR * self.candidate.far + _PROVEN * self.candidate.is_proven
+        return self.spoilt + 1.0 - self.helped / self.missions + _UNTRIED * self.is_untried, change, self.cost
 
 
 @dataclass(frozen=True, eq=False, slots=True)

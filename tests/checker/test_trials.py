@@ -12,7 +12,7 @@ from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.damage import HEAVY, collapsed_of, voided_of
 from checker.counterfactual.effort import Bounds
 from checker.counterfactual.smallness import cost_of, delay_of
-from checker.counterfactual.trials import Missions, Trials, Try, try_out
+from checker.counterfactual.trials import LineTrial, Missions, Trials, Try, try_out
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import usage_of
 from checker.mutation.edits import EditSite, SmallEdit, sites_of
@@ -170,3 +170,13 @@ def test_a_property_that_is_kept_as_nothing_was_due_is_evaded(is_void: bool, nam
     again = replace(passed, outcome=replace(outcome, properties=fates))
     assert voided_of(again, failed) == cost
     assert voided_of(again, passed) == 0.0
+
+
+def test_what_was_tried_on_no_other_mission_comes_behind_what_helps_all() -> None:
+    site = EditSite("m.nddl", 1, 1, 1, "", (1, 1), "int A = 6;", ())
+    candidate = Candidate(site, 0.0, Suspicion.CONFLICT)
+    small, large = (SmallEdit(EditKind.CONSTANT, "m.nddl", 8, 9, "6", new, 1) for new in ("5", "60"))
+    untried = LineTrial(candidate, small, 0.0, 2.0)
+    clean = LineTrial(candidate, large, 0.0, 3.0, helped=3, missions=3, is_untried=False)
+    partly = LineTrial(candidate, small, 0.0, 2.0, helped=2, missions=3, is_untried=False)
+    assert sorted([partly, untried, clean], key=lambda one: one.weight) == [clean, untried, partly]
