@@ -1,8 +1,8 @@
 """Fly many random missions beside the second agent: `python -m tests.executive.second.campaign 500 --first 1000`.
 
 Each difference is to be judged by the specification. The second agent plans in one go what nddlc plans decision by
-decision, by urgency, and goal by goal what nddlc searches as a whole. Of 16 differences in 1000 missions three were looked at,
-and one was a fault of the second agent; the others are still to be judged.
+decision, by urgency, and goal by goal what nddlc searches as a whole. Of 16 differences in 1000 missions three were
+looked at, and one was a fault of the second agent; the others are still to be judged.
 """
 
 import sys
