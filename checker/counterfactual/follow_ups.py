@@ -1,6 +1,6 @@
 """A change that helped in, out: other changes of its line, smaller ones and those that change about as much."""
 
-from checker.counterfactual.numbers import is_apart, is_raised, octaves
+from checker.counterfactual.numbers import is_apart, is_raised
 from checker.counterfactual.smallness import cost_of
 from checker.counterfactual.usage import Usage
 from checker.mutation.edits import EditSite, SmallEdit
@@ -26,12 +26,12 @@ def follow_ups(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]
 
 
 def alternatives(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]:
-    """Other edits of the same line that change about as much, and no number less."""
+    """Other edits of the same line that change about as much."""
     most = cost_of(edit, site, usage) + 0.5
     others = [
         (cost_of(other, site, usage), number, other)
         for number, other in enumerate(site.edits)
         if other != edit and other.kind not in DROPPED
-        if is_apart(other, edit) or (is_raised(other) == is_raised(edit) and octaves(other) >= octaves(edit))
+        if is_apart(other, edit) or is_raised(other) == is_raised(edit)
     ]
     return [other for cost, _, other in sorted(others)[:_MOST_FOLLOW_UPS] if cost <= most]
