@@ -35,6 +35,9 @@ internal = []
 [[reactor]]
 name = "coded"
 code = "{code}"
+[reactor.settings]
+trace = "played.jsonl"
+reactor = "coded"
 """
 
 
@@ -161,6 +164,7 @@ def test_a_mission_runs_what_lies_below_it_only(
 ) -> None:
     file = trap.lay("evil.py", "ws/m.nddl", "own.py")
     (trap.folder / "ws" / "own.py").write_text(f"{HEAD}{TWICE}", encoding="utf-8")
+    file.with_name("played.jsonl").write_text('{"tick":0,"kind":"observation","reactor":"coded"}\n', encoding="utf-8")
     mission = file.with_name("mission.toml")
     mission.write_text(MISSION.format(module=module, code=code.format(folder=trap.folder)), encoding="utf-8")
     action = ["diff"] if command == "gold" else []
