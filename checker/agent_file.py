@@ -64,6 +64,10 @@ class _AgentFile:
     goals: list[TomlTable] = field(default_factory=list)
     clock: Element | None = None
     steps: TomlTable = field(default_factory=dict)  # how many there are in a tick, as the clock says
+    places_of_files: tuple[Path, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.places_of_files = (Path(), *settings_in(self.root).directories)
 
     def read(self, agent: Element) -> TomlTable:
         """All of a file; `agent` is its root."""
@@ -319,8 +323,7 @@ class _AgentFile:
 
     def _found(self, name: str) -> str:
         """A file that is named, from the agent file's folder on: T-REX looks in several, which `include` names here."""
-        places = (Path(), *settings_in(self.root).directories)
-        found = next((place / name for place in places if (self.root / place / name).is_file()), None)
+        found = next((place / name for place in self.places_of_files if (self.root / place / name).is_file()), None)
         return name if found is None else Path(os.path.relpath(self.root / found, self.root)).as_posix()
 
     def _complain_of_element(self, element: Element, parent: str, known: tuple[str, ...]) -> None:

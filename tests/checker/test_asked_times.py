@@ -14,6 +14,8 @@ from checker.proofs.conflict import Finding, confirm
 from checker.proofs.places import text_of
 from checker.sampling.seeds import mission_seed
 from nddl_lang.text.read import real_path
+from runtime.executive.events import single_events
+from runtime.executive.outcome import ElementKind
 
 UNSEEN = Path(__file__).resolve().parent / "unseen"
 
@@ -44,5 +46,9 @@ def test_the_limit_of_who_asked_is_what_breaks(name: str, file: str, constant: s
         f"duration <= {constant}",
         f"{constant} = {wanted}",
     ]
+    assert result.outcome is not None
+    conflicts = [conflict, *(one.conflict for one in single_events(result.outcome.events) if one.conflict is not None)]
+    asked = [one for each in conflicts for one in each.elements if one.kind is ElementKind.REQUEST]
+    assert any(one.says is not None and one.terms[0].name == "eq" for one in asked)  # as in the plan of who asked
     proved = confirm(conflict, text_of(models.agent, models.programs))
     assert (proved.finding, proved.is_minimal) == (Finding.CONFIRMED, True)

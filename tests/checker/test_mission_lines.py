@@ -224,6 +224,7 @@ def test_a_goal_is_named_for_which_others_were_asked_for_too_soon(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (fault,) = faults_of(tmp_path, capsys, THREE)  # hand knows no goal, only until when it was asked for
+    assert fault["code"] == "F10"
     told = {(one["text"], one["change"]["new"]) for one in fault["causes"]["ranked"] if one["change"] is not None}
     assert ("start = [5, 20]", "[5, 100]") in told
 
