@@ -7,8 +7,7 @@ the text, since a mission file is read before its models are compiled: a mode is
 from collections.abc import Mapping
 from pathlib import Path
 
-from nddl_lang.lint.configuration import settings_in
-from nddl_lang.syntax.includes import load_module_graph
+from checker.model_graph import read_model
 from nddl_lang.syntax.nodes import (
     Assignment,
     ClassDecl,
@@ -29,8 +28,7 @@ def declared_roles(model: Path) -> dict[str, tuple[str, ...]]:
     """What a mission file would list of a model: `internal`, `external`, `observe`; empty where it cannot be read."""
     found: dict[str, list[str]] = {"internal": [], "external": [], "observe": []}
     try:
-        way = settings_in(model.parent)
-        module = load_module_graph(model, way.directories, way.dialect, most=way.most_lexemes).module
+        module = read_model(model).module
     except (OSError, ValueError):
         return {}  # told where the model is read
     classes = {

@@ -10,6 +10,7 @@ from checker.figures import figure_misfits
 from checker.influence import Influence, lines_of_influence
 from checker.mission import Mission, read_mission
 from checker.model_fit import complete, find_misfits, sampling_misfits
+from checker.model_graph import read_model
 from checker.names import relative_name
 from checker.planner_fit import unordered_resources
 from checker.property_fit import property_misfits
@@ -20,7 +21,7 @@ from nddl_lang.analysis import Analysis, analyse
 from nddl_lang.lint.configuration import settings_in
 from nddl_lang.lint.linter import lint
 from nddl_lang.semantics.callables import Callables
-from nddl_lang.syntax.includes import LoadedModules, OpenText, load_module_graph
+from nddl_lang.syntax.includes import OpenText
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.read import NotAFileError, read_source, read_text
 from runtime.executive.configuration import AgentConfiguration
@@ -149,14 +150,8 @@ def _analyse_models(agent: AgentConfiguration, callables: Callables, open_text: 
     """The meaning of each model of an agent, by its path in the mission file."""
     names = dict.fromkeys(reactor.model for reactor in agent.reactors)
     root = Path(agent.root)
-    loaded = {name: _read(root / name, open_text) for name in names}
+    loaded = {name: read_model(root / name, open_text) for name in names}
     return {name: analyse(each, callables) for name, each in loaded.items()}
-
-
-def _read(path: Path, open_text: OpenText) -> LoadedModules:
-    """A model with all that it includes, as the settings of its project say."""
-    way = settings_in(path.parent)
-    return load_module_graph(path, way.directories, way.dialect, open_text=open_text, most=way.most_lexemes)
 
 
 def _sites(programs: dict[str, Program]) -> dict[str, ParameterSite]:

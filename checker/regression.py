@@ -15,6 +15,7 @@ from checker.batch.result import MissionResult
 from checker.conditions.space import fixed
 from checker.oracle import PROPERTY, Verdict
 from checker.sampling.sampler import RANDOM_POINT, SamplePoint, with_point
+from checker.written_mission import quoted
 from nddl_lang.text.values import toml_value
 from runtime.executive.configuration import AgentConfiguration, PropertyKind
 
@@ -104,10 +105,10 @@ def cases_text(cases: Sequence[RegressionCase]) -> str:
         goals = ", ".join(map(str, case.goals or ()))
         ends = "" if case.final_tick is None else f"final_tick = {case.final_tick}\n"
         parts.append(
-            f"\n[[case]]\nname = {_text(case.name)}\nwas = {_text(case.was)}\nseed = {case.seed}\n"
+            f"\n[[case]]\nname = {quoted(case.name)}\nwas = {quoted(case.was)}\nseed = {case.seed}\n"
             f"{ends}goals = [{goals}]\n[case.parameters]\n"
         )
-        parts += [f"{_text(name)} = {value!r}\n" for name, value in case.parameters]
+        parts += [f"{quoted(name)} = {value!r}\n" for name, value in case.parameters]
     return "".join(parts)
 
 
@@ -127,9 +128,3 @@ def agent_of(case: RegressionCase, agent: AgentConfiguration) -> AgentConfigurat
             kept = tuple(one for one in agent.properties if one.kind is not PropertyKind.REACHED)
             agent = replace(agent, properties=kept)
     return agent if case.final_tick is None else replace(agent, final_tick=case.final_tick)
-
-
-def _text(value: str) -> str:
-    """A basic string of TOML."""
-    plain = value.replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + "".join(each if each >= " " and each != "\x7f" else f"\\u{ord(each):04x}" for each in plain) + '"'

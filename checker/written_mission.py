@@ -30,7 +30,7 @@ def _are_tables(value: object) -> bool:
 def key_text(name: str) -> str:
     """A key, in quotes where it needs them."""
     is_bare = all(sign.isascii() and (sign.isalnum() or sign in "_-") for sign in name)
-    return name if name and is_bare else _quoted(name)
+    return name if name and is_bare else quoted(name)
 
 
 def _text(value: object) -> str:
@@ -38,12 +38,13 @@ def _text(value: object) -> str:
         case bool():
             return "true" if value else "false"
         case str():
-            return _quoted(value)
+            return quoted(value)
         case list() | tuple():
             return f"[{', '.join(map(_text, value))}]"
         case _:
             return repr(value)
 
 
-def _quoted(text: str) -> str:
+def quoted(text: str) -> str:
+    """A basic string of TOML."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
