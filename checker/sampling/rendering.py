@@ -16,7 +16,7 @@ def number(value: float) -> str:
 def describe(parameter: ParameterConfiguration) -> str:
     """The distribution in one phrase, such as `uniform on [0.1, 4], one value per mission`."""
     distribution = DISTRIBUTIONS[parameter.distribution]
-    values = [number(value) for value in parameter.values]
+    values = _values(parameter)
     shape = distribution.words.format(
         box=f"[{number(parameter.lower)}, {number(parameter.upper)}]",
         values=", ".join(values),
@@ -32,6 +32,15 @@ def describe(parameter: ParameterConfiguration) -> str:
     clip = "" if parameter.clip is None else f", clipped to [{number(parameter.clip[0])}, {number(parameter.clip[1])}]"
     rhythm = "one value per mission" if parameter.mode == "inter" else f"redrawn every {parameter.update} ticks"
     return f"{shape}{whole}{clip}, {rhythm}"
+
+
+def _values(parameter: ParameterConfiguration) -> list[str]:
+    """What it may be; how often, where that differs."""
+    total = sum(parameter.weights)
+    shares = [f" ({number(100.0 * weight / total)} %)" for weight in parameter.weights]
+    if len(set(parameter.weights)) < 2:
+        shares = [""] * len(parameter.values)
+    return [f"{number(value)}{share}" for value, share in zip(parameter.values, shares, strict=True)]
 
 
 def _moments(parameter: ParameterConfiguration) -> str:

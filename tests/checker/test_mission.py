@@ -1,5 +1,6 @@
 """A mission file is read whole, and each mistake in it is named where it stands."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from checker.mission import Mission, parse_mission, read_mission
 from checker.models import load_models
 from checker.pinned import pinned
+from checker.sampling.rendering import describe
 from nddl_lang.text.diagnostic import Severity
 from nddl_lang.text.source import Source
 from nddl_lang.text.toml_places import find_places
@@ -92,6 +94,13 @@ value = 7.5
         ParameterConfiguration("D", 0.0, 0.0),
     )
     assert mission.needs_range == ("D",)
+
+
+def test_values_are_told_with_how_often_they_come_where_that_differs() -> None:
+    uneven = ParameterConfiguration("L", 20.0, 60.0, "discrete", values=(20.0, 40.0, 60.0), weights=(2.0, 1.0, 1.0))
+    assert describe(uneven) == "one of 20 (50 %), 40 (25 %), 60 (25 %), one value per mission"
+    assert describe(replace(uneven, weights=())) == "one of 20, 40, 60, one value per mission"
+    assert describe(replace(uneven, weights=(3.0, 3.0, 3.0))) == "one of 20, 40, 60, one value per mission"
 
 
 def test_parameters_that_depend_on_others_are_read() -> None:
