@@ -210,6 +210,7 @@ renames: build
 
 editor-proof: build
 	$(BIN)/python -m tests.lsp.keystroke_proof $(EXAMPLES)
+	$(BIN)/python -m tests.lsp.hostile_proof $(EXAMPLES)
 	NDDLC_EDITOR=all $(PYTEST) tests/lsp/test_scheduling.py tests/lsp/test_one_engine.py
 
 vsix:

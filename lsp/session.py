@@ -5,6 +5,7 @@ newest state; a question that is taken back before its turn is never computed.
 """
 
 import asyncio
+import gc
 import inspect
 import logging
 from collections.abc import Callable, Sequence
@@ -28,10 +29,13 @@ from lsp.mission_texts import Examine, MissionTexts, OpenMission
 from lsp.open_text import DocumentContext, Publication
 from lsp.project import ServerSettings
 from lsp.pulled import PulledDiagnostics
+from lsp.refusals import RefusedMessage, refusals
 from lsp.semantic_tokens import TokenMemory
 from lsp.written_diagnostics import WrittenDiagnostics
 
 _logger = logging.getLogger(__name__)
+_MISTAKES_HELD = 100
+_OF_ANSWERS = ("result", "error")
 
 
 def _is_worth_a_line(record: logging.LogRecord) -> bool:
@@ -62,6 +66,25 @@ class _Protocol(LanguageServerProtocol):
     def __init__(self, *arguments: Any) -> None:
         super().__init__(*arguments)
         self.written = WrittenDiagnostics(self._serialize_message)
+        self._is_begun = False
+
+    def take(self, message: Any) -> None:
+        """Look at a message, or say why not."""
+        refused = list(refusals(message, is_begun=self._is_begun, is_dismissed=self._shutdown))
+        for each in refused:
+            self.refuse(each)
+        if not refused:
+            if "method" in message:
+                message = {key: value for key, value in message.items() if key not in _OF_ANSWERS}
+            understood = self.structure_message(message)
+            self._is_begun |= message.get("method") == types.INITIALIZE
+            self.handle_message(understood)
+
+    def refuse(self, refusal: RefusedMessage) -> None:
+        """Answer a message that is not looked at."""
+        _logger.error("refused: %s", refusal.reason)
+        if refusal.is_answered:
+            self._send_data(refusal.response())
 
     def _send_data(self, data: Any) -> None:
         """Send a message; complaints that were sent before are not written again."""
@@ -124,14 +147,28 @@ class Session(LanguageServer):
         self.hints = HintSettings()
         self.token_memory = TokenMemory()
         self._is_due = False
+        self._mistakes = 0
 
     def report_server_error(self, error: Exception, source: Any) -> None:
         """Write to the log what went wrong; a box in front of the text would only be in the way."""
+        self._mistakes += 1
+        if self._mistakes % _MISTAKES_HELD == 0:
+            gc.collect(0)  # an exception and the frames of its traceback hold each other, and the message with them
         if isinstance(error, RequestFailed):
             return
         _logger.error("%s %s", error, getattr(error, "data", None) or "")  # pygls keeps the traceback of ours there
         message = types.LogMessageParams(types.MessageType.Error, f"nddlc: {type(error).__name__}: {error}")
         self.window_log_message(message)
+
+    def take(self, message: Any) -> None:
+        """Look at a message, as JSON."""
+        assert isinstance(self.protocol, _Protocol)
+        self.protocol.take(message)
+
+    def refuse(self, refusal: RefusedMessage) -> None:
+        """Answer a message that is not looked at."""
+        assert isinstance(self.protocol, _Protocol)
+        self.protocol.refuse(refusal)
 
     def begin_answered(self, greeting: Greeting | None) -> None:
         """The request that begins the session is answered already, where there is a `greeting`."""

@@ -5,6 +5,7 @@ Nothing of the language is loaded here, so that an editor gets its first answer 
 
 import gc
 import logging
+import re
 import socket
 import sys
 from collections.abc import Callable, Iterator
@@ -17,6 +18,8 @@ from lsp.websocket import WebSocket
 _logger = logging.getLogger(__name__)
 _LONGEST = 256 * 1024 * 1024
 _BLOCK = 1 << 16
+_LENGTH_NAME = re.compile(rb"\s*content-length\s*:", re.IGNORECASE)
+_LENGTH = re.compile(rb"content-length\s*:\s*(\d{1,15})\s*$", re.IGNORECASE)
 _WEB = (b"HTTP/1.0", b"HTTP/1.1", b"HTTP/2.0")
 _LOOPBACK = "127.0.0.1"
 
@@ -45,19 +48,19 @@ class _Stream:
     def messages(self) -> Iterator[bytes]:
         """The body of each message, to the end of the stream.
 
-        Names of header fields are written in any case. A header without a length is passed over, up to the next one.
+        Names of header fields are written in any case. A header without a length is passed over, up to the next one. A
+        header is found again also behind the rest of a body whose length was wrong.
         """
         stream = _Reader(self._given)
         length: int | None = None
         while line := stream.readline(8192):
             if line.rstrip().endswith(_WEB):
                 return  # a page in a browser, whoever wrote it
-            name, _, value = line.partition(b":")
-            if name.strip().lower() == b"content-length":
-                length = int(value) if value.strip().isdigit() and len(value) < 16 else None
+            if (header := _LENGTH.search(line)) is not None:
+                length = int(header[1]) if int(header[1]) <= _LONGEST else None
+            elif _LENGTH_NAME.match(line) is not None:
+                length = None
             elif not line.strip() and length is not None:
-                if length > _LONGEST:
-                    return
                 body = stream.read(length)
                 if len(body) < length:
                     return

@@ -9,6 +9,7 @@ import logging
 import threading
 from collections.abc import Iterator
 
+from lsp.refusals import unreadable
 from lsp.session import Session
 
 _logger = logging.getLogger(__name__)
@@ -35,6 +36,11 @@ async def pump(session: Session, messages: Iterator[bytes]) -> None:
 def receive(session: Session, body: bytes) -> None:
     """Look at one message."""
     try:
-        session.protocol.handle_message(json.loads(body, object_hook=session.protocol.structure_message))
+        message = json.loads(body)
+    except (ValueError, RecursionError) as problem:
+        session.refuse(unreadable(str(problem)))
+        return
+    try:
+        session.take(message)
     except Exception as mistake:  # of whoever wrote the message
         session.report_server_error(mistake, None)

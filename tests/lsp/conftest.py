@@ -57,14 +57,26 @@ class Client:
 
     def _drain(self) -> None:
         assert self.process.stderr is not None
-        self._errors += self.process.stderr
+        self._errors.extend(self.process.stderr)
 
     # ---- messages ----
 
+    def send_raw(self, content: bytes) -> None:
+        """Send bytes as they are."""
+        self._input.write(content)
+        self._input.flush()
+
     def send_bytes(self, content: bytes) -> None:
         """Send something with a header that is right."""
-        self._input.write(b"Content-Length: %d\r\n\r\n%b" % (len(content), content))
-        self._input.flush()
+        self.send_raw(b"Content-Length: %d\r\n\r\n%b" % (len(content), content))
+
+    def next_message(self, patience: float) -> Message | None:
+        """The next message of any kind, waited for so many seconds; None where the server has ended."""
+        return self._messages.get(timeout=patience)
+
+    def errors(self) -> str:
+        """What was written to standard error."""
+        return b"".join(self._errors).decode(errors="replace")
 
     def send(self, **message: Any) -> None:
         """Send one message."""
@@ -85,7 +97,7 @@ class Client:
         """The next message of that kind; others that come before it are passed over."""
         while True:
             message = self._messages.get(timeout=TIMEOUT)
-            assert message is not None, b"".join(self._errors).decode()
+            assert message is not None, self.errors()
             if is_wanted(message):
                 return message
 

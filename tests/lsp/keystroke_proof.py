@@ -22,7 +22,8 @@ from tests.syntax.corpus import texts
 from tests.syntax.test_keystrokes import joined, moved, pasted, typed
 
 _LIFE = 25  # scripts of one session
-_LONGEST = 900
+_LENGTHS = (100, 200, 200, 300, 900)  # of pieces of texts, in characters
+_BLOCK = 5000  # scripts between two lines that tell how far it is
 _INCLUDE = '#include "part.nddl"\n'
 _WORDS = [
     "int ",
@@ -100,6 +101,10 @@ class Scripts:
         for name in ("main.nddl", "part.nddl"):
             (folder / name).write_text("", encoding="ascii")
 
+    def judging(self, first: int) -> Callable[[int], None]:
+        """Carries out one after the other from a seed on."""
+        return lambda number: self.judge(first + number)
+
     def judge(self, seed: int) -> None:
         """Carry out one."""
         chance = random.Random(seed)
@@ -117,7 +122,7 @@ class Scripts:
                 now[file] = step
                 fresh = Editor(self._folder, (now[0], now[1]))
                 assert editor.picture() == fresh.picture(), (seed, number, file, now)
-        if chance.random() < 0.7 or len(now[file]) > 3 * _LONGEST:
+        if chance.random() < 0.7 or len(now[file]) > 3 * max(_LENGTHS):
             now[file] = self._begun[file]
         editor.edit(file, now[file])
         self._begun = now[0], now[1]
@@ -125,12 +130,13 @@ class Scripts:
 
 
 def _model(chance: random.Random) -> tuple[str, str]:
-    if chance.random() < 0.6:
+    if chance.random() < 0.2:
         text = chance.choice((ANALYSED, LINTED))
     else:
         text = chance.choice(texts())
-        begin = chance.randrange(max(1, len(text) - _LONGEST // 2))
-        text = text[begin : begin + _LONGEST]
+        length = chance.choice(_LENGTHS)
+        begin = chance.randrange(max(1, len(text) - length // 2))
+        text = text[begin : begin + length]
     cut = text.find("\n", chance.randrange(len(text) + 1)) + 1
     return _INCLUDE * (chance.random() < 0.9) + text[cut:], text[:cut]
 
@@ -141,7 +147,10 @@ def main() -> None:
     first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
     with tempfile.TemporaryDirectory() as folder:
         scripts = Scripts(Path(folder))
-        wrong = judged("scripts of keystrokes", count, lambda seed: scripts.judge(first + seed))
+        wrong = 0
+        for begin in range(first, first + count, _BLOCK):
+            seeds = range(begin, min(begin + _BLOCK, first + count))
+            wrong += judged(f"scripts from seed {begin} on", len(seeds), scripts.judging(begin))
     sys.exit(1 if wrong else 0)
 
 
