@@ -17,7 +17,7 @@ cdef class CodedReactor(TeleoReactor):
     cdef public CallSlot watch
     cdef public tuple call
     cdef public dict told_sets
-    cdef public object make, kinds, trace, code, wakes, wake, commands
+    cdef public object folder, make, kinds, trace, code, wakes, wake, commands
     cdef public dict seen, events, news, numbers, told
     cdef public list refused_numbers, published, asked, recalled, given_up
 

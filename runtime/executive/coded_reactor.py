@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from math import isnan
+from pathlib import Path
 
 from compiler.program import DomainConstant
 from runtime.executive.commands import Commands
@@ -35,6 +36,7 @@ class CodedReactor(TeleoReactor):
         kinds: _Kinds,
         trace: Trace,
         wakes_on: tuple[str, ...] | None = None,
+        root: str = "",
     ) -> None:
         super().__init__(
             configuration.name,
@@ -45,7 +47,8 @@ class CodedReactor(TeleoReactor):
         )
         self.commands = Commands(self.name, trace) if self.lookahead > 0 else None
         self.told: dict[int, Mapping[str, Argument]] = {}  # arguments of commands, as users read them
-        self.files = (configuration.file,)
+        self.folder = Path(root)
+        self.files = (str(self.folder / configuration.file) if configuration.file else "",)  # as its module is compiled
         self.call = (Plain(f"the reactor `{self.name}`", self.files), None, 0)
         self.watch = WATCH
         self.make = make
@@ -120,6 +123,7 @@ class CodedReactor(TeleoReactor):
             if isinstance(problem, KeyboardInterrupt) and WATCH.was_pressed:
                 raise
             said = str(failed(f"the reactor `{self.name}`", problem, self.files))
+            said = said.removeprefix(f"{self.folder.as_posix()}/")  # the same from wherever it is flown
             return Failure("F7", Reason(ReasonKind.RAISED, tick=tick, message=said), self.internal, None, 0)
         try:
             if is_first:

@@ -185,7 +185,7 @@ def _make_reactors(
     kinds_of = partial(_parameter_kinds, configuration, programs)
     for coded, cls in zip(configuration.coded, programs.code, strict=True):
         make = partial(cls, {"folder": configuration.root, **dict(coded.settings), "seed": seed})
-        reactors.append(CodedReactor(coded, make, kinds_of, trace, cls.wakes_on))
+        reactors.append(CodedReactor(coded, make, kinds_of, trace, cls.wakes_on, configuration.root))
     places = {name: number for number, name in enumerate(configuration.order)}
     return sorted(reactors, key=lambda one: places.get(one.name, len(places)))
 

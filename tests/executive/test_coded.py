@@ -170,6 +170,19 @@ def test_what_it_does_wrong_ends_it(folder: Path, name: str, code: str, tick: in
     assert outcome.abort.reason.message
 
 
+@pytest.mark.parametrize(("name", "text"), [("Raises", "return 1 // 0"), ("Hangs", "while now.tick == 0:")])
+def test_it_is_told_by_its_line_from_wherever_it_is_flown(
+    folder: Path, name: str, text: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its file was known by another name from outside of its folder, and the message said `code.py:1`."""
+    line = next(number for number, each in enumerate(CODE.splitlines(), 1) if text in each)
+    for place, seen in ((folder, Path()), (folder.parent, Path(folder.name)), (Path("/"), folder)):
+        monkeypatch.chdir(place)
+        abort = flown(seen, f"code.py:{name}", seconds=0.2).abort
+        assert abort is not None
+        assert abort.reason.message.startswith((f"code.py:{line}: ", f"code.py:{line + 1}: ")), abort.reason.message
+
+
 def test_the_others_go_on(folder: Path) -> None:
     outcome = flown(folder, "code.py:Raises", "kill_reactor")
     assert outcome.last_tick == 20 and judge(outcome).code == "F7"
