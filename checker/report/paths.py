@@ -103,11 +103,16 @@ def space_figure(track: Track) -> str:
 
 
 def section_figure(track: Track, cell: float) -> str:
-    """Depth over time in cells of `cell` metres, with the phases below and what was asked for anew."""
+    """Depth over time in cells of `cell` metres, with the phases below and what was asked for anew.
+
+    Cells of which many share a pixel are drawn as one.
+    """
     left, right, top, tall = 64.0, _WIDTH - 14.0, 34.0, 230.0
     begin = float(min(track.ticks[0], track.last_tick - 1))
     time = Axis(begin, float(track.last_tick), left, right)
-    cells = max(1, int(np.ceil(float(track.positions[:, 2].max()) / cell - 1e-9)))
+    deepest = float(track.positions[:, 2].max())
+    cell *= max(1, int(deepest / cell / tall))
+    cells = max(1, int(np.ceil(deepest / cell - 1e-9)))
     depth = Axis(0.0, cells * cell, top, top + tall)
     parts = [*_cells(track, cell, cells, time, depth), *_frame(time, depth)]
     rows = _thinned(track)

@@ -10,6 +10,7 @@ from runtime.executive.columns import PublishedColumns
 from runtime.executive.events import EventLog, events_on, single_events
 from runtime.executive.outcome import Event, EventKind, Outcome
 
+_FARTHEST = 1e9  # metres; what a mistaken model sends farther, or nowhere, no picture shows
 _ENDLESS = 2.0**52  # what is wider is bounded on one side at most
 
 
@@ -53,7 +54,7 @@ def track_of(outcome: Outcome, figures: Figures) -> Track | None:
                 targets.append((event.tick, f"{event.predicate} {word}"))
     first, last = _drawn(seen.get(figures.during, []), outcome.last_tick)
     table = _way(outcome.events, figures.path, figures.position)
-    table = table[(first <= table[:, 0]) & (table[:, 0] <= last) & np.isfinite(table).all(axis=1)]
+    table = table[(first <= table[:, 0]) & (table[:, 0] <= last) & (np.abs(table[:, 1:]) <= _FARTHEST).all(axis=1)]
     if len(table) < 2:
         return None
     probabilities = np.zeros(len(table))

@@ -1,6 +1,7 @@
 """Figures of a vehicle's way: what is read from a trace, and what is drawn of it."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -111,6 +112,21 @@ def test_the_section_has_cells_bands_and_targets(track: Track) -> None:
     labels = [str(one.text) for one in root.iter("text") if one.get("class") == "label"]
     assert "Track asked at 0" in labels
     assert "Track recalled, Track asked at 700" in labels
+
+
+def test_a_vehicle_that_a_mistake_sends_far_away_is_drawn() -> None:
+    """A depth of 4e15 m asked for 608 PiB, and the whole report was lost."""
+    near, far = outcome(), 4.2e15
+    runs = [seen(2000 + n, "motion", "Step", x=10.0**n, y=-(10.0**n), z=far * n) for n in range(300)]
+    runs += [seen(1100 + tick, "motion", "Step", x=1100.0 + tick, y=0.0, z=10.0**tick) for tick in range(9)]
+    events = tuple(sorted((*near.events, *runs), key=lambda one: one.tick))
+    track = track_of(replace(near, events=events, last_tick=2300), replace(FIGURES, during=""))
+    assert track is not None
+    assert 1e7 < track.positions.max() < 1e9
+    for figure in (section_figure(track, 5.0), space_figure(track), plan_figure((DrawnPath(track, "", "passed"),))):
+        assert ElementTree.fromstring(figure) is not None
+        assert not re.search("nan|inf", figure)
+        assert len(figure) < 200_000
 
 
 def test_a_map_has_one_scale_in_both_directions(track: Track) -> None:
