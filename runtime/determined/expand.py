@@ -1,6 +1,6 @@
 """Executed tokens of a determined reactor: its log in, columns for the record out, expanded to tokens when read."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from math import inf
 
 import numpy as np
@@ -9,7 +9,8 @@ from compiler.program import PredicateCode
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
 from runtime.determined.reading import values
-from runtime.determined.tags import FAR, FOLLOWER, LEAST, MOST, OF_RULE, ROW, SHOWN, SLOT, WISHED
+from runtime.determined.tags import FAR, FOLLOWER, LEAST, MOST, ROW, SHOWN, SLOT, WISHED
+from runtime.determined.token_columns import WalkColumns
 from runtime.determined.token_walk import TokenWalk
 from runtime.executive.columns import (
     ORIGINS,
@@ -39,15 +40,10 @@ class _Expansion:
         self.values = np.asarray(machine.log.values)
         self.keys = np.asarray(self.walk.keys)[: self.walk.count]
         self.merged = np.asarray(self.walk.merged)[: 3 * self.walk.merged_count].reshape(-1, 3)
-        self.awaited = [line for line in range(machine.lines) if self.walk.awaited[line] >= 0]
-        awaited = np.array([self.walk.awaited[line] for line in self.awaited], np.int64)
-        keys = np.concatenate([self.keys, self.merged[:, 0], awaited])
-        is_key = np.zeros(self.walk.next_key, bool)
-        is_key[keys] = True
-        self.indices = keys if is_key.all() else (np.cumsum(is_key) - 1).take(keys)
-        self.order = np.empty(len(keys), np.int64)  # the row of each index
-        self.order[self.indices] = np.arange(len(keys))
-        self.all_keys = np.flatnonzero(is_key)
+        self.found = WalkColumns(self.walk)
+        self.indices = np.asarray(self.found.index_of)[: self.walk.count]  # of rows
+        self.order = np.asarray(self.found.order)  # the row of each index
+        self.all_keys = np.asarray(self.found.keys)[: self.found.count]
         self._slots: Array | None = None
 
     @property
@@ -72,51 +68,35 @@ class _Expansion:
 
     def times(self) -> TokenTimes:
         """What all tokens have."""
-        program, count = self.program, self.walk.count
-        into = self.merged[:, 2]
-        ends = np.asarray(self.walk.ends)[:count]
-        is_over = ends < FAR
-        least, latest = ends.copy(), ends.astype(float)
-        for row in np.flatnonzero(~is_over).tolist():
-            least[row], latest[row] = self._bounds(row)
-        latest[latest >= FAR] = inf
-        names = [each.name for each in program.model.program.predicates]
-        tokens = np.asarray(program.tokens.predicate)
-        followers = [self.walk.follower[line] for line in self.awaited]
-        many = len(into)
-        merged, awaited = self.indices[count : count + many], self.indices[count + many :]
-        # What a merged token has is, as a rule, what the one has that it is merged into.
-        of = np.concatenate([np.arange(count), into, np.zeros(len(awaited), np.int64)]).take(self.order)
+        found = self.found
+        for line in range(self.machine.lines):
+            found.least[line], found.most[line] = self._bounds(line)
+        found.fill(self.tick)
+        shift = len(self.program.model.program.predicates)  # names of timelines come behind those of predicates
 
-        def all_of(own: Array, of_awaited: float | Sequence[float], of_merged: float | Array | None = None) -> Array:
-            found = own.take(of)
-            if of_merged is not None:
-                found[merged] = of_merged
-            found[awaited] = of_awaited
-            return found
+        def told(column: Iterable[float]) -> Array:
+            return np.asarray(column)[: found.count]
 
-        shift = len(names)
-        later, nobodies = self.tick + 1, np.full(count, NOBODY)
         return TokenTimes(
             self.all_keys,
-            all_of(self.rows[:, 2], followers, tokens.take(self.merged[:, 1]) if many else None),
-            all_of(self.rows[:, 1] + shift, [line + shift for line in self.awaited]),
-            all_of(np.zeros(count, np.int8), 2, 1),
-            all_of(self.rows[:, 0], later),
-            all_of(least, later),
-            all_of(latest, inf),
-            all_of(nobodies, NOBODY, self.keys.take(into) if many else None),
-            all_of(np.asarray(self.walk.origins)[:count], OF_RULE, OF_RULE),
-            all_of(is_over, False),
-            all_of(np.where(is_over, ends, self.tick), self.tick),
-            all_of(self.rows[:, 4], NOBODY),
+            told(found.predicates),
+            told(found.objects) + shift,
+            told(found.states),
+            told(found.starts),
+            told(found.ends),
+            told(found.latest),
+            told(found.merged_into),
+            told(found.origins),
+            told(found.is_over).view(bool),
+            told(found.ticks),
+            told(found.values),
         )
 
-    def _bounds(self, row: int) -> tuple[int, float]:
-        """The bounds of the end of a token that holds when the mission ends."""
+    def _bounds(self, line: int) -> tuple[int, int]:
+        """The bounds of the end of what holds on a timeline when the mission ends."""
         present, n = self.machine.present, self.machine.lines
-        slot = int(present.state[SLOT * n + self.rows[row, 1]])
-        return int(present.state[LEAST * n + slot]), float(present.state[MOST * n + slot])
+        slot = int(present.state[SLOT * n + line])
+        return int(present.state[LEAST * n + slot]), int(present.state[MOST * n + slot])
 
     # ---- single tokens ----
 
@@ -127,7 +107,7 @@ class _Expansion:
             return self._started(row)
         if row < count + len(self.merged):
             return self._merged(row - count)
-        return self._awaited(self.awaited[row - count - len(self.merged)])
+        return self._awaited(row - count - len(self.merged))
 
     def _started(self, row: int) -> TokenRecord:
         start, line, predicate, _, first = self.rows[row, :5].tolist()
@@ -154,10 +134,10 @@ class _Expansion:
         end = int(self.walk.ends[row])
         if end < FAR:
             return end, end - start, "over", end
-        least, most = self._bounds(row)
+        least, most = self._bounds(int(self.rows[row, 1]))
         if least == most:
             return least, least - start, "end", self.tick
-        latest = inf if most >= FAR else int(most)
+        latest = inf if most >= FAR else most
         return ValueRange(least, latest), ValueRange(least - start, latest - start), "end", self.tick
 
     def _arguments(self, code: PredicateCode, first: int) -> tuple[Value, ...]:

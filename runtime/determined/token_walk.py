@@ -5,6 +5,9 @@ Keys are given as the general engine gives them: in the order of time, the token
 """
 
 from array import array
+from typing import Any
+
+import numpy as np
 
 from runtime.determined.log import Log
 from runtime.determined.tags import (
@@ -22,6 +25,11 @@ from runtime.determined.tags import (
     SHOWN,
     WISHED,
 )
+
+
+def room_for(count: int, kind: type = np.int64) -> "memoryview[Any]":
+    """Room for `count` numbers, whatever they are: each is still to be written."""
+    return np.empty(count + 1, kind).data
 
 
 class BlockTokens:
@@ -55,10 +63,10 @@ class TokenWalk:
         self.truths = self._filled(tokens.truths)
         self.is_fact = array("q", bytes(8 * lines))
         self.is_used = array("q", bytes(8 * lines))
-        self.keys = array("q", bytes(8 * (count + 1)))
-        self.ends = array("q", [FAR]) * (count + 1)
-        self.origins = array("q", bytes(8 * (count + 1)))
-        self.children = array("q", [NONE]) * (count + 1)  # where the tokens of the block of a row begin
+        self.keys = room_for(count)
+        self.ends = room_for(count)
+        self.origins = room_for(count)
+        self.children = room_for(count)  # where the tokens of the block of a row begin; NONE if another began it
         self.child_keys = array("q", [NONE])
         self.child_rows = array("q", [NONE])
         self.merged = array("q", [NONE])  # key, number among the tokens of blocks, row of the other
@@ -78,13 +86,14 @@ class TokenWalk:
         room = 0
         for row in range(self.count):
             block = self.log.rows[ROW * row + 3]
+            self.children[row] = room if block >= 0 else NONE
             if block >= 0:
-                self.children[row] = room
                 block &= WISHED - 1
                 room += self.first[block + 1] - self.first[block]
-        self.child_keys = array("q", [NONE]) * (room + 1)
-        self.child_rows = array("q", [NONE]) * (room + 1)
-        self.merged = array("q", bytes(8 * 3 * (room + 1)))
+        self.child_keys = room_for(room)
+        self.child_rows = room_for(room)
+        self.child_keys[room] = self.child_rows[room] = NONE
+        self.merged = room_for(3 * room)
         row = 0
         while row < self.count:
             tick = self.log.rows[ROW * row]
@@ -120,6 +129,7 @@ class TokenWalk:
             self.ends[self.current[line]] = tick
             self.before[line] = self.current[line]
         self.current[line] = row
+        self.ends[row] = FAR
         self.keys[row] = key
         self.origins[row] = origin
         return 0
@@ -135,9 +145,10 @@ class TokenWalk:
                 if (self.log.values[shown + self.indices[c]] != 0.0) != (self.truths[c] != 0):
                     holds = False
                     break
+            into = self.children[row] + t - first
+            self.child_keys[into] = self.child_rows[into] = NONE
             if not holds:
                 continue
-            into = self.children[row] + t - first
             line = self.line[t]
             if self.how[t] == IS_MERGED or self.how[t] == IS_PREVIOUS:
                 self.child_keys[into] = self.next_key
