@@ -67,9 +67,9 @@ class TokenWalk:
         self.ends = room_for(count)
         self.origins = room_for(count)
         self.children = room_for(count)  # where the tokens of the block of a row begin; NONE if another began it
-        self.child_keys = array("q", [NONE])
-        self.child_rows = array("q", [NONE])
-        self.merged = array("q", [NONE])  # key, number among the tokens of blocks, row of the other
+        self.child_keys = room_for(0)
+        self.child_rows = room_for(0)
+        self.merged = room_for(0)  # key, number among the tokens of blocks, row of the other
         self.merged_count = 0
         self.current = array("q", [NONE]) * lines
         self.before = array("q", [NONE]) * lines

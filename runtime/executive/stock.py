@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from types import TracebackType
 
 from compiler.program import Program
+from runtime.constraints.domains.arrays import Growth, note_growth
 from runtime.executive.configuration import AgentConfiguration, ReactorConfiguration
 from runtime.executive.loaded_state import LoadedState
 from runtime.executive.planning import Planner
@@ -43,18 +44,25 @@ class Loans:
 
     def __init__(self) -> None:
         self._borrowed: list[tuple[_Shelf, Stocked]] = []
+        self._growth: list[Growth] = []
+        self._outer: list[Growth] | None = None
 
     def __enter__(self) -> "Loans":
+        self._outer = note_growth(self._growth)
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: object, trace: TracebackType | None) -> None:
+        note_growth(self._outer)
+        if self._outer is not None:
+            self._outer += self._growth
         if kind is None:
             for shelf, loaded in self._borrowed:
                 assert loaded.snapshot is not None
-                loaded.snapshot.restore()
+                loaded.snapshot.restore(self._growth)
                 loaded.bench.database.environment = None  # nothing of the mission stays
                 shelf.idle.append(loaded)
         self._borrowed.clear()
+        self._growth.clear()
 
     def borrow(
         self,

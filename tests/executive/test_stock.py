@@ -3,8 +3,17 @@
 Each mission of test_cases is flown again for it as well.
 """
 
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
 import pytest
 
+import runtime.build_form
+from runtime.build_form import build_form
+from checker.mission import read_mission
+from checker.models import load_models
+from runtime.constraints.domains.arrays import Growth, note_growth
 from runtime.executive.agent import Agent
 from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.loaded_state import LoadedState
@@ -13,9 +22,11 @@ from runtime.executive.outcome import Outcome
 from runtime.executive.timelines import TimelineState
 from runtime.plan.store.rows import Rows
 from runtime.solver.configuration.configuration import default_configuration
+from tests.checker.judge.missions import GPS
 from tests.executive.flying import flown, planner, simulator
 from tests.executive.test_cases import CASES, loaded
 from tests.executive.test_equal_runs import GOALS, OWNER, USER, toy
+from tests.programs import programs_of
 
 
 def test_repairs_of_another_mission_leave_no_trace() -> None:
@@ -83,6 +94,59 @@ def test_what_grew_or_changed_is_restored() -> None:
     assert rows.token_count == 0
     assert table == {"a": [1]}
     assert (line.current, line.event) == (-1, -1)
+
+
+def test_a_mission_has_the_room_that_earlier_ones_needed() -> None:
+    mission, _ = read_mission(GPS)
+    assert mission is not None
+    agent = load_models(mission).agent
+    programs = programs_of(agent)
+    first = [record_mission(agent, programs, seed) for seed in (1, 2)]
+    growth: list[Growth] = []
+    before = note_growth(growth)
+    again = [record_mission(agent, programs, seed) for seed in (1, 2, 1, 2)]
+    note_growth(before)
+    assert again == first + first
+    rows = [one for one in growth if isinstance(one[0], Rows)]
+    assert len(rows) == 0 or build_form() != "compiled"
+
+
+def test_restoring_twice_gives_the_same_and_keeps_what_grew() -> None:
+    rows = Rows()
+    snapshot = LoadedState((rows,))
+    before = bytes(memoryview(rows.key))
+    for count in (200, 100, 2000, 0, 100):
+        growth: list[Growth] = []
+        outer = note_growth(growth)
+        for _ in range(count):
+            rows.new_token(0, 0, -1, -1, -1)
+        note_growth(outer)
+        snapshot.restore(growth)
+        found = bytes(memoryview(rows.key))
+        assert found[: len(before)] == before and not any(found[len(before) :])
+        assert rows.token_count == 0
+
+
+def test_arrays_of_made_objects_grow_where_it_is_noted() -> None:
+    """What is restored in place after a mission has no other arrays than those that were noted."""
+    home = Path(runtime.build_form.__file__).parent
+    for room in ("constraints", "plan", "solver", "executive", "user"):
+        for path in sorted((home / room).rglob("*.py")):
+            # A table that all missions share, and a plan that is loaded before it is kept.
+            if path.name in ("handler_table.py", "loading.py", "arrays.py"):
+                continue
+            for function in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(function, ast.FunctionDef) and function.name != "__init__":
+                    assert not list(_arrays_given(function)), path
+
+
+def _arrays_given(function: ast.FunctionDef) -> Iterator[str]:
+    """The attributes that get an array in a function."""
+    for node in ast.walk(function):
+        if isinstance(node, ast.Assign) and any(isinstance(each, ast.Attribute) for each in node.targets):
+            for call in ast.walk(node.value):
+                if isinstance(call, ast.Call) and ast.unparse(call.func) in ("array", "blank", "grown"):
+                    yield ast.unparse(node)
 
 
 def test_what_is_to_be_kept_is_not_restored() -> None:

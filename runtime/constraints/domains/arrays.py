@@ -7,8 +7,12 @@ from typing import Any, Literal, TypeVar, cast, overload
 _IS_LAZY = hasattr(mmap, "MAP_PRIVATE")  # can the system give pages that cost nothing until they are written?
 _Number = TypeVar("_Number", int, float)
 
+# Of an object: the names of rows, their new length, and what new cells hold; of a ring its name, its room, and None.
+Growth = tuple[object, str, int, float | None]
+
 _SHORT = 2**9  # cells up to which rows grow fourfold
 _LARGE = 2**22  # bytes from which an array lives in such pages
+_noted: list[Growth] | None = None  # where growth is noted, if somebody wants to know
 
 
 @overload
@@ -32,7 +36,12 @@ def grown(old: "array[_Number]", length: int, fill: float = 0) -> "array[_Number
 
 
 def grow_rows(owner: object, names: str, length: int, fill: float = 0) -> None:
-    """Lengthen the arrays of an object that have these names, with spaces between them."""
+    """Lengthen the arrays of an object that have these names, with spaces between them.
+
+    Once it is made, an object gets other arrays in no other way, and by `grow_ring`.
+    """
+    if _noted is not None:
+        _noted.append((owner, names, length, fill))
     for name in names.split():
         setattr(owner, name, grown(getattr(owner, name), length, fill))
 
@@ -67,6 +76,8 @@ def next_log_room(room: int) -> int:
 
 def grow_ring(owner: object, name: str, room: int) -> None:
     """Lengthen the ring `name_queue` of an object, whose live part moves to the start."""
+    if _noted is not None:
+        _noted.append((owner, name, room, None))
     old, first, last = (getattr(owner, f"{name}_{part}") for part in ("queue", "first", "last"))
     new = blank(room, "i")
     count = (last - first) % len(old)
@@ -74,3 +85,19 @@ def grow_ring(owner: object, name: str, room: int) -> None:
         new[i] = old[(first + i) % len(old)]
     for part, value in (("queue", new), ("first", 0), ("last", count), ("mask", room - 1)):
         setattr(owner, f"{name}_{part}", value)
+
+
+def note_growth(into: list[Growth] | None) -> list[Growth] | None:
+    """Note from now on in a list what grows, or nowhere; gives where it was noted before."""
+    global _noted
+    before, _noted = _noted, into
+    return before
+
+
+def grow_again(growth: Growth) -> None:
+    """Repeat what was noted, on the object as it was before."""
+    owner, names, length, fill = growth
+    if fill is None:
+        grow_ring(owner, names, length)
+    else:
+        grow_rows(owner, names, length, fill)

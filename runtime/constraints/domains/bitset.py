@@ -1,6 +1,6 @@
 """Keep which values between a variable's bounds are missing: words of bits, a log of who removed which."""
 
-from runtime.constraints.domains.arrays import grown, lengthen
+from runtime.constraints.domains.arrays import grow_rows, lengthen
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     ALL_BITS,
@@ -246,7 +246,7 @@ def attach_table(s: Store, v: int, values: list[float]) -> None:
     else:
         first = s.table_used
         if first + count > len(s.table_values):
-            s.table_values = grown(s.table_values, 2 * (first + count))
+            grow_rows(s, "table_values", 2 * (first + count))
         s.table_used = first + count
     for k in range(count):
         s.table_values[first + k] = values[k]

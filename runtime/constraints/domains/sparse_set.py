@@ -2,7 +2,7 @@
 
 from array import array
 
-from runtime.constraints.domains.arrays import lengthen
+from runtime.constraints.domains.arrays import grow_rows, lengthen
 
 _FIRST_ROOM = 8 * 256  # bytes
 
@@ -21,7 +21,7 @@ class SparseSet:
             self.marks[self.items[i]] = 0
         self.count = 0
         if len(self.marks) < room:
-            self.marks = array("b", bytes(2 * room))
+            grow_rows(self, "marks", 2 * room)
         return 0
 
     def add(self, number: int) -> int:

@@ -3,7 +3,7 @@
 from array import array
 from typing import Any
 
-from runtime.constraints.domains.arrays import grow_ring, grow_rows, grown, lengthen, next_log_room
+from runtime.constraints.domains.arrays import grow_ring, grow_rows, lengthen, next_log_room
 from runtime.constraints.domains.sparse_set import SparseSet
 from runtime.constraints.domains.tags import (
     CONFLICT_DOMAIN,
@@ -225,11 +225,12 @@ class Store:
 
     def grow_trail(self) -> None:
         """Make the trail longer; `LimitError` beyond `trail_most`."""
-        room = next_log_room(self.trail_room)
-        if room > self.trail_most:
-            raise LimitError(f"more than {self.trail_room} changes of its plan are in force at once")
-        grow_rows(self, "trail_key trail_value trail_support trail_when", room)
-        self.trail_room = room
+        if len(self.trail_key) == self.trail_room:
+            room = next_log_room(self.trail_room)
+            if room > self.trail_most:
+                raise LimitError(f"more than {self.trail_room} changes of its plan are in force at once")
+            grow_rows(self, "trail_key trail_value trail_support trail_when", room)
+        self.trail_room = len(self.trail_key)
 
     # --------------------------------------------------------------------------------------------- saving, waking
 
@@ -237,7 +238,7 @@ class Store:
         """Keep a float's bound for the way back; give its index."""
         i = self.real_bounds_used
         if i == len(self.real_bounds):
-            self.real_bounds = grown(self.real_bounds, 2 * i)
+            grow_rows(self, "real_bounds", 2 * i)
         self.real_bounds[i] = x
         self.real_bounds_used = i + 1
         return i

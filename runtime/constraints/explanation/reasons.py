@@ -1,6 +1,6 @@
 """Say which bounds a support read when it narrowed a bound: the step of every walk back along supports."""
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     KIND_BOOL,
@@ -63,7 +63,7 @@ def _add_reason(s: Store, v: int, side: int) -> None:
     if s.constant[v]:
         return
     if s.reason_count == len(s.reasons):
-        s.reasons = grown(s.reasons, 2 * len(s.reasons))
+        grow_rows(s, "reasons", 2 * len(s.reasons))
     s.reasons[s.reason_count] = v * 4 + side
     s.reason_count += 1
 

@@ -5,7 +5,7 @@ in a cycle (x <= y / 2 and y <= x have shrunk both from 10). Such bounds are in 
 constraint or edge whose supports do not lead back to restrictions without a cycle.
 """
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     HALF_INF,
@@ -28,7 +28,7 @@ def _relax(s: Store, v: int, side: int) -> None:
     new = bit & ~s.relaxed[v]
     s.relaxed[v] |= bit
     if s.cone_count + 2 > len(s.cone):
-        s.cone = grown(s.cone, 2 * len(s.cone))
+        grow_rows(s, "cone", 2 * len(s.cone))
     for bound in range(2):
         if new & (1 << bound):
             s.cone[s.cone_count] = v * 4 + bound

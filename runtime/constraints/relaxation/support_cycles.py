@@ -1,6 +1,6 @@
 """Cycles among supports: bounds whose supports lead back to themselves instead of to restrictions."""
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import SIDE_HOLES, SIDE_LOWER, SIDE_UPPER, SUPPORT_RESTRICTION
 from runtime.constraints.explanation.reasons import collect_reasons
@@ -43,7 +43,7 @@ def is_self_supporting(s: Store, v: int, side: int) -> bool:
 def _push(s: Store, depth: int, key: int) -> None:
     """Put a bound on the stack."""
     if depth >= len(s.support_stack):
-        s.support_stack = grown(s.support_stack, 2 * len(s.support_stack))
+        grow_rows(s, "support_stack", 2 * len(s.support_stack))
     s.support_stack[depth] = key
 
 

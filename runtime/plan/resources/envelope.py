@@ -6,7 +6,7 @@ maximum flow from takers to givers before them. Order is read off the STN: paths
 bounds.
 """
 
-from runtime.constraints.domains.arrays import blank, lengthen
+from runtime.constraints.domains.arrays import blank, grow_rows, lengthen
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, SIDE_LOWER, SIDE_UPPER
 from runtime.constraints.engine import Engine
 from runtime.plan.resources.profile import Profile
@@ -167,10 +167,11 @@ class Envelope:
     def make_room(self, n: int) -> None:
         """Make the arrays long enough for `n` uses and all variables."""
         if n > self.use_room:
-            lengthen(self, "takes gives instants supply demand from_taker from_giver queue", need=n)
+            if n > len(self.takes):
+                lengthen(self, "takes gives instants supply demand from_taker from_giver queue", need=n)
             self.use_room = len(self.takes)
-            self.flow = blank(self.use_room * self.use_room, "d")
-            self.ordered = blank(self.use_room * self.use_room)
+            if self.use_room * self.use_room > len(self.flow):
+                grow_rows(self, "flow ordered", self.use_room * self.use_room)
         if self.engine.variables > len(self.marks):
             lengthen(self, "marks stack via", need=self.engine.variables)
 

@@ -10,6 +10,7 @@ same lines.
 from array import array
 from collections.abc import Callable
 
+from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.sparse_set import SparseSet
 from runtime.constraints.domains.tags import (
     FLAG_FROZEN,
@@ -81,7 +82,7 @@ def _removable(plan: Plan, tokens: list[int], tick: int, leaving: Leaving) -> li
                 known.add(child)
             child = rows.sibling[child]
     if len(leaving.doomed) < rows.token_count:
-        leaving.doomed = array("b", bytes(2 * rows.token_count))
+        grow_rows(leaving, "doomed", 2 * rows.token_count)
     doomed = leaving.doomed
     for t in range(rows.token_count):
         doomed[t] = 0

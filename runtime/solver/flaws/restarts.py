@@ -6,7 +6,7 @@ uses weights, since they may mislead. Runs grow geometrically, so that either or
 
 from array import array
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import SUPPORT_CONSTRAINT, SUPPORT_EDGE
 from runtime.solver.tags import FEW_FAILURES, LARGEST_SIZE, WEIGHT_SCALE
@@ -25,7 +25,8 @@ class Restarts:
     def clear(self) -> None:
         """Forget all weights, if there are any: the plan was changed from outside."""
         if self.failures or self.count:
-            self.weight = array("q", [1]) * 64
+            for v in range(len(self.weight)):
+                self.weight[v] = 1
             self.failures = self.count = 0
             self.limit = FEW_FAILURES
 
@@ -39,7 +40,7 @@ class Restarts:
     def _add(self, v: int) -> None:
         """Increase the weight of a variable."""
         if v >= len(self.weight):
-            self.weight = grown(self.weight, 2 * v, 1)
+            grow_rows(self, "weight", 2 * v, 1)
         self.weight[v] += 1
 
     def note_failure(self) -> int:
