@@ -233,7 +233,8 @@ def _finish(plan: Plan, sweep: _Sweep) -> bool:
             _drop_scopes(plan, t, sweep)
         unlink(rows, t, LIST_OPEN)
         rows.set_status(t, FREED)
-        sweep.variables += range(rows.var0[t], rows.var0[t] + rows.width[t])
+        for v in range(rows.var0[t], rows.var0[t] + rows.width[t]):
+            sweep.variables.append(v)
     gone, limits = plan.gone_variables, plan.gone_restrictions
     gone.empty(engine.variables)
     limits.empty(engine.restrictions_used)

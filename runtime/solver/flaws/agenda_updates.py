@@ -65,13 +65,16 @@ def rebuild(agenda: Agenda) -> None:
         v = after
         if mask == 0:
             continue
-        for number in range(after - first):
+        number = 0
+        while mask and first + number < after:
             each = first + number
             # What is decided, which most are, is never a flaw.
-            if not mask >> min(number, _LAST_BIT) & 1 or decided[each] or kinds[each] < 0 or constant[each]:
-                continue
-            if exact or not is_single(engine, each) or not is_base_single(engine, each):
-                _add_variable(agenda, each)
+            if mask & 1 and not decided[each] and kinds[each] >= 0 and not constant[each]:
+                if exact or not is_single(engine, each) or not is_base_single(engine, each):
+                    _add_variable(agenda, each)
+            number += 1
+            if number <= _LAST_BIT:
+                mask >>= 1
     for s in range(agenda.rows.scope_count):
         if agenda.rows.scope_watch[s] >= 0 and agenda.rows.scope_branch[s] == BRANCH_WAITING:
             agenda.waiting_guards[0] += 1
