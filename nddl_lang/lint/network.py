@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from nddl_lang.text.source import Span
 
+_TOLERANCE = 1e-4  # floats that differ by less may count as equal
 Node = tuple[object, str]  # a token with `start` or `end`; an event has only `start`
 
 
@@ -35,7 +36,7 @@ def negative_cycle(edges: Sequence[Edge]) -> list[Edge]:
         is_changed = False
         for edge in edges if number % 2 == 0 else reversed(edges):
             through = distance[edge.earlier] + edge.weight
-            if through < distance[edge.later] - 1e-9:
+            if through < distance[edge.later] - _TOLERANCE:
                 distance[edge.later] = through
                 before[edge.later] = edge
                 is_changed = True

@@ -177,7 +177,11 @@ def lint_chained_comparisons(part: Part) -> Iterator[Finding]:
         if inner.left.span.begin > inner.span.begin:  # in parentheses: it is meant so
             continue
         middle, right = inner.right.span.text, outer.right.span.text
+        first = part.tables.types.get(inner.left)
+        is_truth = inner.op == "==" and first is not None and first.kind is Kind.BOOL
         text = f"{inner.span.text} && {middle} {outer.op} {right}"
+        if is_truth:
+            text = f"{inner.left.span.text} == ({middle} {outer.op} {right})"
         fix = Fix(f"write `{text}`", (Edit(outer.span, text),), safe=False)
         notes = (Note(f"read as `({inner.span.text}) {outer.op} {right}`"),)
         yield CHAINED.at(outer.op_span, notes=notes, fixes=(fix,), op=outer.op, text=inner.span.text)

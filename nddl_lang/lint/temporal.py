@@ -39,6 +39,7 @@ from nddl_lang.syntax.nodes import (
 )
 from nddl_lang.text.source import Span
 
+_NUMBERS = (Kind.INT, Kind.FLOAT)
 _ZERO: Node = ("", "")  # the beginning of time: numbers are distances from it
 _CONTAINING = frozenset({"contains", "contained_by", "equals", "contains_start", "contains_end"})
 _CALLS = {"eq": "==", "concurrent": "==", "leq": "<=", "precedes": "<=", "lt": "<", "strictlyPrecedes": "<"}
@@ -81,10 +82,10 @@ class RuleTimes:
                 yield from self._distance(first, distance, second, statement.span)
 
     def _declared(self, declaration: VariableDecl) -> Iterator[Edge]:
-        """What the domains of int variables say, which may stand between two times."""
+        """What the domains of variables say that are numbers."""
         for declarator in declaration.declarators:
             variable = self._part.tables.declared.get(declarator.name)
-            if isinstance(variable, Variable) and variable.type.kind is Kind.INT:
+            if isinstance(variable, Variable) and variable.type.kind in _NUMBERS:
                 domain = declared(variable)
                 hull = domains.hull(domain) if domain is not None else None
                 if hull is not None:
@@ -101,7 +102,8 @@ class RuleTimes:
         return token, "time" if predicate.is_event else point
 
     def _lasting(self, token: object, predicate: Predicate, name: str) -> Iterator[Edge]:
-        """How long a token lasts by its declaration."""
+        """How long a token lasts by its declaration, and what that leaves to its parameters."""
+        yield from _ranges(token, predicate, name)
         if predicate.is_event:
             return
         start, end = (token, "start"), (token, "end")
@@ -165,10 +167,25 @@ class RuleTimes:
         if first is None or second is None or first[0] == second[0]:
             return
         (one_node, plus), (other_node, more) = first, second
-        gap = plus - more + (1 if op == "<" else 0)
+        gap = plus - more
+        if op == "<" and gap == int(gap) and self._is_whole(left) and self._is_whole(right):
+            gap += 1
         names = {one_node[0]: _token_name(left), other_node[0]: _token_name(right)}
         upper = gap if op == "==" else INFINITY
         yield from _edges(one_node, other_node, gap, upper, names, span, None)
+
+    def _is_whole(self, expression: Expr) -> bool:
+        """Whether what `_term` understands is a whole number, apart from what is added to it."""
+        while isinstance(expression, BinaryExpr):
+            expression = expression.left
+        reference = self._part.reference(expression) if isinstance(expression, PathExpr) else None
+        match reference:
+            case LocalReference(variable=variable) | GlobalReference(variable=variable):
+                return variable.type.kind is Kind.INT
+            case TokenVariableReference(type=type_):
+                return type_.kind is Kind.INT
+            case _:
+                return True
 
     def _distance(self, first: Expr | None, distance: Expr, second: Expr, span: Span) -> Iterator[Edge]:
         """`first` and `second` are so far apart; without `first`, `second` is at that time."""
@@ -213,9 +230,9 @@ class RuleTimes:
             return self._time(self._token(reference.label), reference.name, reference.label.predicate), 0
         match reference:
             case LocalReference(variable=variable) | GlobalReference(variable=variable):
-                return ((variable, "value"), 0) if variable.type.kind is Kind.INT else None
+                return ((variable, "value"), 0) if variable.type.kind in _NUMBERS else None
             case TokenVariableReference(label=label, name=name, type=type_):
-                is_number = type_.kind is Kind.INT and name not in ("duration", "state", "object")
+                is_number = type_.kind in _NUMBERS and name not in ("duration", "state", "object")
                 return ((self._token(label), name), 0) if is_number else None
             case _:
                 return None
@@ -227,6 +244,21 @@ def _bounds(relation: Relation, index: int, lower: float, upper: float) -> tuple
     bound = relation.bounds[index]
     least, most = number(bound.lower), number(bound.upper)
     return (lower if least is None else least), (upper if most is None else most)
+
+
+def _ranges(token: object, predicate: Predicate, name: str) -> Iterator[Edge]:
+    """What its declaration leaves to the parameters of a token that are numbers."""
+    for parameter in predicate.parameters:
+        domain = token_domain(predicate, parameter.name, parameter.type) if parameter.type.kind in _NUMBERS else None
+        hull = domains.hull(domain) if domain is not None else None
+        if hull is None:
+            continue
+        at = (token, parameter.name)
+        words = f"`{_time_name(at, {token: name})}` is at {{}} by its declaration"
+        if hull.lower > -INFINITY:
+            yield Edge(at, _ZERO, -hull.lower, words.format(f"least {_number(hull.lower)}"), predicate.span)
+        if hull.upper < INFINITY:
+            yield Edge(_ZERO, at, hull.upper, words.format(f"most {_number(hull.upper)}"), predicate.span)
 
 
 def _token_name(expression: Expr) -> str:

@@ -13,6 +13,7 @@ from nddl_lang.syntax.nodes import (
     GoalStatement,
     IfStatement,
     MethodCall,
+    PredicateDecl,
     RuleDecl,
     RuleStatement,
 )
@@ -76,10 +77,14 @@ def _in_script(whole: Whole) -> Iterator[Diagnostic]:
 
 
 def lint_times(part: Part) -> Iterator[Finding]:
-    """Contradictions between relations, durations and comparisons of times in a rule."""
+    """Contradictions between relations, durations and comparisons in a rule, and in the body of a predicate."""
+    times = RuleTimes(part)
+    for predicate in part.all(PredicateDecl):
+        assert isinstance(predicate, PredicateDecl)
+        if cycle := negative_cycle([edge for statement in predicate.body for edge in times.edges(statement)]):
+            yield _contradiction(part, cycle)
     if not isinstance(part.node, RuleDecl):
         return
-    times = RuleTimes(part)
     known = times.own_edges()
     pending: list[tuple[tuple[RuleStatement, ...], list[Edge], bool]] = [(part.node.body, known, True)]
     while pending:

@@ -1,13 +1,14 @@
 """Check the arguments of a call against its signature: how many, and of what type."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from nddl_lang.semantics.codes import ARGUMENTS_DIFFER, WRONG_ARGUMENT, WRONG_COUNT
+from nddl_lang.semantics.names import suggest_name
 from nddl_lang.semantics.schema import Kind, Reference, TokenReference, Type
 from nddl_lang.semantics.scope import Context
 from nddl_lang.semantics.signature import Argument, ArgumentKind, Signature
 from nddl_lang.semantics.types import COUNTABLE, always_differ, comparable, phrase
-from nddl_lang.syntax.nodes import Expr
+from nddl_lang.syntax.nodes import Expr, PathExpr
 from nddl_lang.text.diagnostic import Note
 from nddl_lang.text.source import Span
 
@@ -57,12 +58,15 @@ def check_types(
             )
 
 
-def complain_argument(context: Context, name: str, argument: Argument, expression: Expr, found: str) -> None:
-    """Say that an argument is of the wrong kind."""
+def complain_argument(
+    context: Context, name: str, argument: Argument, expression: Expr, found: str, meant: Iterable[str] = ()
+) -> None:
+    """Say that an argument is of the wrong kind; one of the names in `meant` may be what was meant."""
     text = expression.span.text
-    context.complain(
-        WRONG_ARGUMENT.at(expression.span, name=name, expected=argument.kind.value, text=text, found=found)
-    )
+    complaint = WRONG_ARGUMENT.at(expression.span, name=name, expected=argument.kind.value, text=text, found=found)
+    if isinstance(expression, PathExpr) and len(expression.parts) == 1:
+        complaint = suggest_name(complaint, expression.parts[0], meant)
+    context.complain(complaint)
 
 
 def _is_of_kind(context: Context, argument: Argument, type_: Type, reference: Reference | None) -> bool:

@@ -5,9 +5,10 @@ from dataclasses import replace
 from nddl_lang.semantics.arguments import check_count, check_types
 from nddl_lang.semantics.codes import FORMER_CONSTRAINT, NOT_IN_NDDL3, UNKNOWN_CONSTRAINT
 from nddl_lang.semantics.constraints import CONSTRAINTS_ELSEWHERE, FORMER_CONSTRAINTS, ConstraintRow, Origin
-from nddl_lang.semantics.expressions import NO_ENVIRONMENT, check_condition, sampled_parameter, type_of
+from nddl_lang.semantics.expressions import NO_ENVIRONMENT, check_condition, type_of
 from nddl_lang.semantics.functions import FUNCTIONS
 from nddl_lang.semantics.names import suggest_name
+from nddl_lang.semantics.sampled import sampled_parameter
 from nddl_lang.semantics.scope import Context, Scope
 from nddl_lang.semantics.signature import ArgumentKind
 from nddl_lang.syntax.advice import advise_operator

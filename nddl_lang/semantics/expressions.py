@@ -1,6 +1,6 @@
 """Give every expression its type; tell the user where operands do not go together."""
 
-from nddl_lang.semantics.arguments import check_count, check_types, complain_argument
+from nddl_lang.semantics.arguments import check_count, check_types
 from nddl_lang.semantics.codes import (
     ALWAYS_DIFFERENT,
     INCOMPARABLE,
@@ -18,12 +18,10 @@ from nddl_lang.semantics.codes import (
 from nddl_lang.semantics.constraints import Origin
 from nddl_lang.semantics.functions import OTHER_FUNCTIONS, FunctionRow, ResultKind
 from nddl_lang.semantics.literals import number, number_meant
-from nddl_lang.semantics.names import find, name_beside, resolve, resolve_value, suggest_name
+from nddl_lang.semantics.names import name_beside, resolve_value, suggest_name
 from nddl_lang.semantics.natives import TIME_NAMES
+from nddl_lang.semantics.sampled import sampled_parameter
 from nddl_lang.semantics.schema import (
-    ClassReference,
-    EnumValue,
-    GlobalReference,
     Kind,
     TokenReference,
     TokenVariableReference,
@@ -373,28 +371,4 @@ def _result_type(context: Context, row: FunctionRow, types: list[Type | None]) -
 def _sampled_type(context: Context, scope: Scope, call: CallExpr, row: FunctionRow) -> Type:
     if check_count(context, row.name, row.signature, len(call.arguments), call.span, row.meaning):
         return sampled_parameter(context, scope, call, call.arguments[0], row)
-    return FLOAT
-
-
-def sampled_parameter(context: Context, scope: Scope, owner: object, expression: Expr, row: FunctionRow) -> Type:
-    """The type of what is drawn for the parameter that `expression` names; `owner` is the call or statement."""
-    reference = None
-    if isinstance(expression, PathExpr):
-        # Locals are no parameters: where nothing has the name, none of them was meant.
-        is_known = len(expression.parts) > 1 or find(context, scope, expression.parts[0].name) is not None
-        reference = resolve(context, scope if is_known else Scope(scope.kind), expression)
-        if reference is None:
-            return FLOAT
-    argument = row.signature.required[-1]
-    if isinstance(reference, EnumValue | GlobalReference):
-        found = reference_type(reference, None)
-        assert found is not None
-        context.tables.types[expression] = found
-        if isinstance(reference, EnumValue) or found.kind in NUMBERS:
-            context.tables.sampled[owner] = reference
-            return FLOAT if isinstance(reference, EnumValue) else plain(found)
-        complain_argument(context, row.name, argument, expression, phrase(found))
-    else:
-        what = "a class" if isinstance(reference, ClassReference) else "neither"
-        complain_argument(context, row.name, argument, expression, what)
     return FLOAT

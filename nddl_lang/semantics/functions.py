@@ -154,4 +154,8 @@ OTHER_FUNCTIONS = {
     "uniform": "what chance decides is `sampledParameter(NAME)`, and the mission file says how it is drawn",
     "normal": "what chance decides is `sampledParameter(NAME)`, and the mission file says how it is drawn",
     "power": "a power is the function `pow(a, b)`",
+    "absolute": "a number without its sign is `abs(x)`",
+    "maximum": "the larger of two is `max(a, b)`",
+    "minimum": "the smaller of two is `min(a, b)`",
+    "ceiling": "round up by `ceil(x)`",
 }

@@ -40,6 +40,7 @@ from nddl_lang.text.source import Span
 
 TOKEN_OF_SCRIPT = "`{name}` is a token of the script; rules and predicates see only tokens of their own"
 
+_MOST_NAMED = 8  # names that a help lists
 _VALUE_TABLES = ("global", "goal", "value")
 _COMPARISONS = frozenset(("==", "!=", "<", "<=", ">", ">="))
 _LITERALS = ("true", "false", "inf", "inff")
@@ -242,7 +243,12 @@ def complain_unknown_member(context: Context, class_name: str, name: Identifier,
     complaint = UNKNOWN_MEMBER.at(name.span, notes=notes, owner=class_name, name=name.name)
     if owner is not None and not owner.is_defined:
         complaint = _with(complaint, f"`{class_name}` is only announced so far; define it above this place", ())
-    context.complain(suggest_name(complaint, name, [each for each in _members(context, class_name) if each != but]))
+    members = [each for each in _members(context, class_name) if each != but]
+    complaint = suggest_name(complaint, name, members)
+    if complaint.help is None and 0 < len(members) <= _MOST_NAMED:
+        named = ", ".join(f"`{member}`" for member in members)
+        complaint = _with(complaint, f"its members are {named}" if len(members) > 1 else f"its member is {named}", ())
+    context.complain(complaint)
 
 
 def _members(context: Context, class_name: str) -> list[str]:

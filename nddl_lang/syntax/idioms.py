@@ -42,6 +42,7 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
     (r"return (.*);", "a statement says what holds: remove `return`", r"\1;"),
     # Words and signs of expressions.
     (r".*\S \* \* \S.*", "a power is the function `pow(a, b)`", ""),
+    (rf".* ({_PATH}|{_NUMBER}) x ({_PATH}|{_NUMBER})\b.*", r"a product is written `\1 * \2`", ""),
     (r".*\| (\S.*?) \|.*", r"write `abs(\1)`", ""),
     (rf".*\( {_TYPE} \) [\w(].*", "there are no casts: a float is rounded by `ceil(x)` or `floor(x)`", ""),
     (rf".*[^\w\s] {_TYPE} \(.*", "there are no casts: a float is rounded by `ceil(x)` or `floor(x)`", ""),

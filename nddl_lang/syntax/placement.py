@@ -8,6 +8,7 @@ from nddl_lang.syntax.codes import EMPTY_IN_PREDICATE, MISPLACED, OF_LEXEMES
 from nddl_lang.syntax.nodes import (
     Allocation,
     Assignment,
+    BinaryExpr,
     BrokenStatement,
     CallConstraint,
     ClassDecl,
@@ -19,6 +20,7 @@ from nddl_lang.syntax.nodes import (
     IfStatement,
     Include,
     MethodCall,
+    PathExpr,
     PredicateDecl,
     Relation,
     RuleDecl,
@@ -165,6 +167,11 @@ def _misplaced(b: Builder, statement: Any, block: BlockGrammar) -> BrokenStateme
         help_text = "did you mean `super`?"
     elif isinstance(statement, CallConstraint | ExprConstraint) and block is CONSTRUCTOR:
         help_text = "a constructor gives members their values: write `member = value;`"
+        match statement:
+            case ExprConstraint(expression=BinaryExpr(op="==", left=PathExpr(parts=(_,)) as left, right=right)):
+                meant = f"{left.span.text} = {right.span.text};"
+                help_text = f"a constructor gives members their values: write `{meant}`"
+                fixes = (Fix(f"write `{meant}`", (Edit(span, meant),), safe=False),)
     elif isinstance(statement, Assignment) and block is CLASS:
         help_text = "put it into a constructor"
     elif isinstance(statement, MethodCall) and block is RULE and statement.method.name in RELATIONS:
