@@ -6,6 +6,8 @@ whether a command is taken in nor what else finds room behind it.
 
 from runtime.executive.draws import Draws
 from runtime.executive.goals import Goals
+from runtime.executive.repair import hold_present, stand
+from runtime.executive.timelines import NOTHING
 from runtime.executive.view import SPAN_CLOCK
 from runtime.executive.workbench import Workbench
 
@@ -16,13 +18,31 @@ def draw_anew(bench: Workbench, draws: Draws, goals: Goals, tick: int) -> bool:
     for token in draws.outdated(bench, tick):
         if not bench.is_active(token):
             continue  # it has made way
-        holds = bench.renew(token)
+        holds = _renew(bench, goals, token)
         if not holds and draws.is_reactive:
-            holds = _begin_first(bench, goals, token, tick) or _put_off(bench, draws, token, tick)
+            holds = _begin_first(bench, goals, token, tick) or _put_off(bench, draws, goals, token, tick)
         if not holds:
             break
     draws.begins = {}
     return holds
+
+
+def _renew(bench: Workbench, goals: Goals, token: int) -> bool:
+    """Let the rules of a token fire anew; what they asked for and has begun before it goes on, and they find it."""
+    if not any(_asked_for(bench, line.current, token) for line in goals.timelines):
+        return bench.renew(token)
+    seen = hold_present(bench, goals.timelines)
+    holds = bench.renew(token)
+    stand(bench, goals.timelines, seen)
+    return holds
+
+
+def _asked_for(bench: Workbench, t: int, token: int) -> bool:
+    """Whether the rules of `token`, or of what they asked for, asked for `t`."""
+    while t != NOTHING and (t := bench.parent(t)) >= 0:
+        if t == token:
+            return True
+    return False
 
 
 def _begin_first(bench: Workbench, goals: Goals, token: int, tick: int) -> bool:
@@ -34,15 +54,15 @@ def _begin_first(bench: Workbench, goals: Goals, token: int, tick: int) -> bool:
         other = goal.token
         if other != own and bench.is_alive(other, goal.token_key) and bench.is_waiting(other, tick):
             bench.cancel(other)
-    return bench.renew(token)
+    return _renew(bench, goals, token)
 
 
-def _put_off(bench: Workbench, draws: Draws, token: int, tick: int) -> bool:
+def _put_off(bench: Workbench, draws: Draws, goals: Goals, token: int, tick: int) -> bool:
     """Let a token wait whose draw does not let it begin now; a goal whose time is over is left undecided."""
     if bench.upper(bench.start(token)) <= tick:
         return bench.is_goal(token) and bench.cancel(token)
     draws.is_put_off = True
-    holds = bench.renew(token)
+    holds = _renew(bench, goals, token)
     draws.is_put_off = False
     return holds and bench.at_least(bench.start(token), tick + 1, SPAN_CLOCK, token)
 
@@ -53,7 +73,7 @@ def leave_open(bench: Workbench, draws: Draws, goals: Goals, tick: int) -> bool:
         return False
     draws.is_put_off = True
     for token in draws.waiting(bench, tick):
-        bench.renew(token)
+        _renew(bench, goals, token)
     for token in goals.missed():
         goals.rejections.pop(token, None)
         bench.cancel(token)

@@ -208,3 +208,45 @@ def test_a_fact_to_come_is_drawn_for_as_it_begins_whichever_ticks_are_visited() 
     ]
     assert lines(ways[0].outcome) == lines(ways[1].outcome)
     assert [draw.tick for draw in ways[0].outcome.draws] == [36]
+
+
+OVEN = """
+float TIME = [0.0 3.0];
+class Arm extends AgentTimeline { predicate Rest { } predicate Dip { } Arm(Mode m) { super(m, "Rest"); } }
+class Bath extends AgentTimeline {
+    predicate Cold { }
+    predicate Hot { int ticks; }
+    Bath(Mode m) { super(m, "Cold"); }
+}
+Arm::Dip { float t; t == sampledParameter(TIME); duration == 10 + ceil(t); meets(Rest); starts_during(Bath.Hot hot); }
+Bath::Hot { duration == ticks; }
+Arm arm = new Arm(Internal); Bath bath = new Bath(Internal); close();
+"""
+
+
+def test_what_a_command_asked_for_and_has_begun_goes_on_when_the_command_is_drawn_for_anew() -> None:
+    """The second bath begins as the first ends; at the start of the second dip, drawn for anew, it was taken back."""
+    goals = (
+        GoalConfiguration("bath", "Hot", 0, False, (6.0, 6.0), parameters=(("ticks", 13),)),
+        GoalConfiguration("arm", "Dip", 6, False, (7.0, 7.0)),
+        GoalConfiguration("arm", "Dip", 8, False, (9.0, 60.0)),
+    )
+    time = ParameterConfiguration("TIME", 0.0, 3.0, mode="intra", update=1)
+    begun = set()
+    for seed in range(8):
+        for every in (False, True):
+            flight = flown(
+                simulator("oven", OVEN, "arm bath"),
+                until=50,
+                goals=goals,
+                parameters=(time,),
+                seed=seed,
+                every_tick=every,
+            )
+            assert flight.report.holds, flight.report.disagreements
+            hot = [line for line in history(flight.outcome, "bath") if " Hot" in line]
+            dips = [line for line in history(flight.outcome, "arm") if " Dip" in line]
+            assert [line.partition(" ")[0] for line in hot] == ["6", "19"]
+            assert len(dips) == 2
+            begun.add(int(dips[1].partition(" ")[0]))
+    assert max(begun) > 19
