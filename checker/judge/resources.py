@@ -1,7 +1,7 @@
 """Judge resources: the level over time from the uses that were executed, at every instant up to the last tick."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, isnan, nan
 
 from checker.judge.bench import Bench, Tok
@@ -88,7 +88,46 @@ def _limits_of(kind: str, members: dict[str, Value]) -> _ResourceLimits | None:
 
 
 def _uses_of(bench: Bench, resource: str) -> Iterator[_ResourceUse]:
-    """What was executed on a resource, by tokens of its own and by `uses` in rules."""
+    """What was executed on a resource, by tokens of its own and by `uses` in rules; each plan speaks of its own time.
+
+    What a repair cut off counts until then. The plan that it made instead counts from then on: of what was going on it
+    tells once more, from its beginning.
+    """
+    uses = list(_recorded(bench, resource))
+    cuts = _cuts_of(bench) if any(tok is not None and tok.is_outdated for tok, _ in uses) else []
+    known: set[tuple[float, float]] = set()  # what was added at a time, by tokens that are cut off
+    for tok, use in uses:
+        if tok is not None and tok.is_outdated and use.end is None and use.start <= tok.record.tick:
+            known.add((use.start, use.amount))
+    for tok, use in uses:
+        if tok is None:
+            yield use
+        elif tok.is_outdated:
+            until = float(tok.standing.record.tick if tok.standing.is_cut else tok.record.tick)
+            if use.earliest > until or (use.end is None and use.start > until):
+                continue
+            ends = (None, inf) if use.end is None else (min(use.end, until), min(use.latest, until))
+            yield replace(use, start=min(use.start, until), end=ends[0], latest=ends[1])
+        else:
+            since = max((tick for tick, key in cuts if tok.key > key), default=-inf)
+            if use.end is None and use.start < since and (use.start, use.amount) in known:
+                continue
+            if use.end is not None:
+                use = replace(use, earliest=max(use.earliest, since), start=max(use.start, since))
+            yield use
+
+
+def _cuts_of(bench: Bench) -> list[tuple[int, int]]:
+    """When repairs or recalls cut tokens off, with the newest token that was there; keys go up."""
+    newest: dict[int, int] = {}
+    for one in bench.tokens.records():
+        if one.fate == "cut":
+            newest[one.tick] = max(newest.get(one.tick, one.key), one.key)
+    return sorted(newest.items())
+
+
+def _recorded(bench: Bench, resource: str) -> Iterator[tuple[Tok | None, _ResourceUse]]:
+    """What is on record of a resource, each with its token."""
     fitting = (one for one in bench.tokens.on(resource) if one.state == "active")
     for tok in bench.tokens.of(fitting):
         record = tok.record
@@ -96,10 +135,11 @@ def _uses_of(bench: Bench, resource: str) -> Iterator[_ResourceUse]:
         if kind not in ("produce", "consume", "uses", "use"):
             continue
         quantity: Value = tok.values[FIRST_PARAMETER] if record.arguments and kind != "use" else 1.0  # of a Unary
-        yield from _use(bench, kind, quantity, tok.values[START], tok.values[END], tok, None)
+        found = _use(bench, kind, quantity, tok.values[START], tok.values[END], tok, None)
+        yield from ((tok, one) for one in found)
     for holder, quantity, start, end, user, span in bench.uses:
         if holder == resource:
-            yield from _use(bench, "uses", quantity, start, end, user, span)
+            yield from ((user, one) for one in _use(bench, "uses", quantity, start, end, user, span))
 
 
 def _use(

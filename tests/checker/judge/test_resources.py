@@ -58,3 +58,26 @@ def test_a_use_whose_end_was_left_open_counts_until_it_may_be_over(first: int, f
     record = MissionRecord((reactor._replace(tokens=tokens),))
     report = judge_mission(mission.agent, mission.programs, mission.outcome, record)
     assert sum(one.kind == "level" for one in report.disagreements) == found
+
+
+@pytest.mark.parametrize(
+    ("is_anew", "other", "found"), [(True, None, 0), (True, (10, 12), 1), (False, (10, 12), 0), (False, (5, 7), 1)]
+)
+def test_what_a_repair_plans_anew_is_no_second_use(is_anew: bool, other: tuple[int, int] | None, found: int) -> None:
+    """A repair at tick 8 cuts off a use of all there is; if what uses it goes on, it is planned from its beginning."""
+    mission = flown(planner("planner", HOSE, "work"), until=30, goals=BOTH)
+    (reactor,) = mission.record.reactors
+    water, wash = [one for one in reactor.tokens if one.predicate == "Reusable.uses"]
+    newest = max(one.key for one in reactor.tokens)
+    lasting = water._replace(start=4, end=13, duration=9)
+    tokens = [one for one in reactor.tokens if one is not water]
+    if other is not None and other[0] < 8:
+        tokens.append(wash._replace(key=newest + 1, start=other[0], end=other[1], duration=2, fate="over"))
+    tokens.append(lasting._replace(key=newest + 2, fate="cut", tick=8))
+    if other is not None and other[0] >= 8:
+        tokens.append(wash._replace(key=newest + 3, start=other[0], end=other[1], duration=2))
+    if is_anew:
+        tokens.append(lasting._replace(key=newest + 4))
+    record = MissionRecord((reactor._replace(tokens=tuple(tokens)),))
+    report = judge_mission(mission.agent, mission.programs, mission.outcome, record)
+    assert sum(one.kind == "level" for one in report.disagreements) == found
