@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from checker.controllability.dynamic import offending_cycle
-from checker.controllability.static import is_strongly_controllable, is_weakly_controllable
+from checker.controllability.static import is_strongly_controllable, is_weakly_controllable, joined
 from checker.excerpts import Excerpts
 from checker.mission import LARGEST_SEED
 from checker.proofs.rendering import Answer, control_data, control_lines
@@ -45,7 +45,7 @@ def command(path: str | None, seed: int | None, style: str, is_trusted: bool) ->
     for plan in plan_networks(certifier.structures[0], certifier.dated[0], certifier.ranges(), flights):
         cycle = offending_cycle(plan.network)
         is_shown = cycle is not None and offending_cycle(plan.as_shown()) is not None
-        is_strong = cycle is None and is_strongly_controllable(plan.network)
+        is_strong = cycle is None and is_strongly_controllable(joined(plan.network))
         is_weak = cycle is None or is_weakly_controllable(plan.network)
         verdicts.add(1 if is_shown else 2 if plan.endless or cycle is not None else 0)
         answer = Answer(cycle, is_shown=is_shown, is_strong=is_strong, is_weak=is_weak)

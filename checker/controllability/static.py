@@ -1,6 +1,7 @@
 """Strong controllability: one schedule for all durations. Weak: some schedule for all that are known beforehand."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import product
 
 from checker.controllability.network import RequirementEdge, UncertainNetwork
@@ -32,6 +33,30 @@ def is_strongly_controllable(network: UncertainNetwork) -> bool:
         most = sum(network.links[number].upper for number in after if number not in before)
         edges.append(RequirementEdge(first, second, edge.weight - most + least))
     return is_consistent(network.points, edges)
+
+
+def joined(network: UncertainNetwork) -> UncertainNetwork:
+    """The network with one point for all that are one time by demand: what ends as a link ends is chosen by nobody.
+
+    Points stay apart where a demand within them contradicts that, or where they are the ends of several links.
+    """
+    least = {(edge.earlier, edge.later) for edge in network.edges if edge.weight <= 0}
+    groups = {point: {point} for point in range(network.points)}
+    for a, b in least:
+        if (b, a) in least and groups[a] is not groups[b]:
+            groups[a] |= groups[b]
+            groups.update(dict.fromkeys(groups[b], groups[a]))
+    ends = {link.end for link in network.links}
+    standing = list(range(network.points))
+    for group in {id(each): each for each in groups.values() if len(each) > 1}.values():
+        inner = [edge.weight for edge in network.edges if edge.earlier in group and edge.later in group]
+        tied = [link for link in network.links if link.start in group and link.end in group]
+        if min(inner) == 0 and not tied and len(group & ends) + (0 in group) <= 1:
+            for point in group:
+                standing[point] = min(group)
+    edges = [replace(one, earlier=standing[one.earlier], later=standing[one.later]) for one in network.edges]
+    links = [replace(one, start=standing[one.start], end=standing[one.end]) for one in network.links]
+    return UncertainNetwork(network.points, edges, links)
 
 
 def is_weakly_controllable(network: UncertainNetwork) -> bool | None:

@@ -33,6 +33,7 @@ class Structure:
     variables: dict[str, Number] = field(default_factory=dict)
     times: list[tuple[str, str, str]] = field(default_factory=list)  # start, end and duration of each token
     asked: list[tuple[str, str, str]] = field(default_factory=list)  # reactor, variables and name of what it asked for
+    observed: set[str] = field(default_factory=set)  # variables of what others did, and nobody here asked for
     arguments: dict[str, tuple[Value, ...]] = field(default_factory=dict)  # of that, by its variables
     earliest: dict[str, int] = field(default_factory=dict)  # starts that the mission file asks for
     draws: dict[str, dict[str, None]] = field(default_factory=dict)  # variables of each sampled parameter
@@ -93,6 +94,10 @@ class _ReactorReader:
 
     def read(self) -> None:
         """Tokens, rules, timelines and the script."""
+        wanted = {each.merged_into for each in self.tokens.values()}
+        for key, token in self.flown.items():
+            if token.origin == "observation" and str(token.object) in self.configuration.external and key not in wanted:
+                self.found.observed.add(f"{self.configuration.name}:{key}")
         for token in self.flown.values():
             self._token(token)
         self._worlds()

@@ -243,6 +243,8 @@ class _Builder:
         match demand.name:
             case "gap":
                 lower, upper = (None if each is None else each.as_long() for each in numbers[2:4])
+                if lower is not None and name_of(numbers[0]).removesuffix(_POINTS[0]) in self.structure.observed:
+                    lower = min(lower, 0)  # it filled the ticks that a request took, and need not have been there
                 self._between(self._point(numbers[0]), self._point(numbers[1]), lower, upper, demand)
             case "temporalDistance":
                 length = self._value(numbers[1])

@@ -15,7 +15,7 @@ from click.testing import CliRunner
 
 from checker.controllability.dynamic import offending_cycle
 from checker.controllability.network import ContingentLink, RequirementEdge, UncertainNetwork
-from checker.controllability.static import is_consistent, is_strongly_controllable, is_weakly_controllable
+from checker.controllability.static import is_consistent, is_strongly_controllable, is_weakly_controllable, joined
 from checker.proofs.intervals import Ranges
 from nddlc.controllability import command
 from nddlc.inputs import Unusable
@@ -99,6 +99,29 @@ def test_strong_is_dynamic_and_dynamic_is_weak() -> None:
         strong, dynamic = is_strongly_controllable(network), offending_cycle(network) is None
         assert dynamic or not strong
         assert is_weakly_controllable(network) or not dynamic
+
+
+def test_times_that_are_one_are_chosen_once() -> None:
+    """A second name for each time changes nothing but that what ends with a link is chosen by nobody."""
+    answers = set()
+    for network in networks(12):
+        twice = UncertainNetwork(2 * network.points, list(network.edges), list(network.links))
+        for point in range(network.points):
+            twice.between(point, network.points + point, 0, 0)
+        again = joined(twice)
+        strong = is_strongly_controllable(again)
+        assert strong == is_strongly_controllable(network)
+        assert len({offending_cycle(each) is None for each in (again, twice, network)}) == 1
+        assert is_weakly_controllable(again) == is_weakly_controllable(network)
+        answers.add((strong, is_strongly_controllable(twice)))
+    assert (True, False) in answers
+    clash = UncertainNetwork(3, [], [ContingentLink(0, 1, 1, 2)])
+    clash.between(1, 2, 0, 0)
+    clash.between(1, 2, 1, None)
+    assert not is_strongly_controllable(joined(clash))
+    both = UncertainNetwork(3, [], [ContingentLink(0, 1, 1, 2), ContingentLink(0, 2, 1, 2)])
+    both.between(1, 2, 0, 0)
+    assert not is_strongly_controllable(joined(both))
 
 
 def test_the_edges_of_the_cycle_are_enough() -> None:
@@ -188,7 +211,68 @@ def test_whole_numbers_that_are_drawn_make_durations_uncertain(most: int, code: 
     assert [(each["between"], each["token"].partition("#")[0]) for each in plan["durations"]] == [
         ([50, 90], "Oven.Bake")
     ]
-    assert (plan["dynamic"], plan["strong"]) == (code == 0, False)
+    assert (plan["dynamic"], plan["strong"]) == (code == 0, code == 0)
+
+
+MOTORS = """
+class Motor extends AgentTimeline {
+    predicate Still { }
+    predicate Run { int kind; }
+    Motor(Mode m) { super(m, "Still"); }
+}
+class Task extends AgentTimeline {
+    predicate Rest { }
+    predicate Work { }
+    Task(Mode m) { super(m, "Rest"); }
+}
+"""
+
+
+@pytest.mark.parametrize(("most", "is_dynamic"), [(20, True), (19, False)])
+def test_ticks_that_a_request_takes_are_not_in_the_network(most: int, is_dynamic: bool, tmp_path: Path) -> None:
+    """`Still` stood between the runs while the second was asked for, and its one tick was counted; so was the end of
+    `Work` as chosen, though it is that of the second run."""
+    (tmp_path / "plan.nddl").write_text(
+        f'#include "TREX.nddl"\n{MOTORS}Task::Work {{ contains(Motor.Run one); one.kind == 1; contains(Motor.Run two);'
+        f" two.kind == 2; one before two; two.end == end; duration <= {most}; }}\n"
+        "Task task = new Task(Internal);\nMotor motor = new Motor(External);\nclose();\n"
+    )
+    (tmp_path / "motor.nddl").write_text(
+        f'#include "TREX.nddl"\n{MOTORS}int LENGTH = [5 10];\n'
+        "Motor::Run { int d; d == sampledParameter(LENGTH); duration == d; }\n"
+        "Motor motor = new Motor(Internal);\nclose();\n"
+    )
+    (tmp_path / "mission.toml").write_text("""
+[mission]
+name = "motors"
+final_tick = 60
+[[reactor]]
+name = "planner"
+model = "plan.nddl"
+lookahead = 60
+internal = ["task"]
+external = ["motor"]
+[[reactor]]
+name = "owner"
+model = "motor.nddl"
+lookahead = 1
+internal = ["motor"]
+[[goal]]
+timeline = "task"
+predicate = "Work"
+start = [5, 5]
+mandatory = true
+[parameters.LENGTH]
+kind = "int"
+mode = "intra"
+update = 1
+[check]
+missions = 20
+""")
+    found = CliRunner().invoke(command, [str(tmp_path / "mission.toml"), "--format", "json"], standalone_mode=False)
+    assert found.exception is None, found.exception
+    (plan,) = json.loads(found.output)
+    assert (found.return_value, plan["dynamic"], plan["strong"]) == (int(not is_dynamic), is_dynamic, is_dynamic)
 
 
 def test_a_branch_that_the_flight_did_not_take_counts(tmp_path: Path) -> None:
