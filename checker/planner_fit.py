@@ -29,9 +29,12 @@ def unordered_resources(
         if any(manager.component == "ResourceThreatManager" for manager in managers):
             continue
         key = "model" if reactor.solver is None else "solver"
-        advice = "name a file with a `ResourceThreatManager` under `solver` (docs/cookbook.md shows one)"
+        where = "under `solver`" if mission.text.source.name.endswith(".toml") else "as `plan_cfg`"
+        advice = f"name a file with a `ResourceThreatManager` {where} (docs/cookbook.md shows one)"
         if reactor.solver is not None:
-            advice = f'add a [[manager]] with `component = "ResourceThreatManager"` to {reactor.solver}'
+            table = '[[manager]] with `component = "ResourceThreatManager"`'
+            entry = table if reactor.solver.endswith(".toml") else "`<ResourceThreatManager/>`"
+            advice = f"add a {entry} to {reactor.solver}"
         span = mission.text.value_span((*mission.text.reactor_path(number), key))
         yield NO_THREATS.at(span, resource=resources[0], reactor=reactor.name, help=advice)
 

@@ -27,9 +27,10 @@ class Rate:
     """How often missions fail, and what that says about the limit.
 
     `failures` of `missions` failed; the estimate `observed` rests on `counted` of them, of which `counted_failures`
-    failed. The rule: the check fails when `observed` is above the limit, and with a limit of 0 when any mission fails
-    (`exceeds`). Whether the interval agrees is said beside it: `is_certain` where the limit lies outside of it, on the
-    side of the decision.
+    failed. The rule: the check fails when `observed` is above the limit, with a limit of 0 when any mission fails, and
+    where missions failed that a design chose, unless the others show that the rate is within the limit (`exceeds`).
+    Whether the interval agrees is said beside it: `is_certain` where the limit lies outside of it, on the side of the
+    decision.
     """
 
     failures: int
@@ -73,11 +74,13 @@ def judge_missions(
     observed = _estimate(counted)
     interval, method = rate_interval(first, confidence, most_weight=most_weight, is_sequential=is_sequential)
     is_proof = limit == 0.0 and failures > 0
-    exceeds = observed > limit or is_proof
+    is_shown = interval is None or interval[1] <= limit
+    are_beside = any(failed and point.role is MissionRole.DESIGNED for failed, point in first)
+    exceeds = observed > limit or is_proof or (are_beside and not is_shown)
     if interval is None:
         is_certain = is_proof
     else:
-        is_certain = interval[0] > limit or is_proof if exceeds else interval[1] <= limit
+        is_certain = interval[0] > limit or is_proof if exceeds else is_shown
     return Rate(
         failures, len(flown), round(observed, DIGITS), confidence, interval, method, limit, exceeds, is_certain,
         len(counted), hits, len(first) < len(flown),

@@ -63,8 +63,10 @@ def origin_of_errors(findings: Findings) -> str:
 def rate_line(rate: Rate) -> str:
     """The rate with its interval; where there is none, why."""
     level = number(rate.confidence * 100.0)
+    if not rate.counted:
+        return "failure rate: not known"
     if rate.interval is None:
-        share = f"{percent(rate.observed)} of the missions failed" if rate.missions else "no mission was flown"
+        share = f"{percent(rate.observed)} of the missions failed"
         return f"{share}; no interval: a design chose them, so that they are not independent"
     basis, placed = "", ""
     if rate.has_gaps:
@@ -150,6 +152,12 @@ def decision(findings: Findings) -> str:
         word = "FAILS" if rate.exceeds else "HOLDS" if findings.holds else "UNDECIDED"
         side = "above" if rate.exceeds else "within"
         return f"{word}: the share is {side} {limit}; how sure that is a design does not tell"
+    if rate.exceeds and rate.observed <= rate.limit:
+        beside = rate.failures - rate.counted_failures
+        return (
+            f"FAILS: {rate.failures} of {missions(rate.missions)} failed, {beside} of them chosen by the sampler, and "
+            f"those flown at random do not show that the rate is within {limit}"
+        )
     if rate.exceeds:
         sure = "and the whole interval is" if rate.is_certain else "though the interval includes it: more missions tell"
         return f"FAILS: the rate is above {limit}, {sure}{' too' if rate.is_certain else ''}"

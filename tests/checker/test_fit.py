@@ -182,6 +182,14 @@ def test_a_resource_whose_uses_nobody_orders_is_told_of(folder: Path, capsys: py
         (folder / "s.toml").write_text(f'[[manager]]\ncomponent = "{component}"\n')
         text = MISSION.replace('model = "driver.nddl"', 'model = "driver.nddl"\nsolver = "s.toml"')
         assert [(code, message) for code, _, message, _ in found(text, capsys)] == complaints
+    agent = """<Agent name="a" finalTick="90">
+  <EuropaReactor name="driver" model="driver.nddl" latency="1" lookahead="30"/>
+</Agent>
+"""
+    (folder / "agent.xml").write_text(agent)
+    (folder / "driver.nddl").write_text(MODEL.replace("close();", stored).replace("(External)", "(Internal)"))
+    run(["check", "--dry-run", str(folder / "agent.xml")])
+    assert "name a file with a `ResourceThreatManager` as `plan_cfg`" in capsys.readouterr().out
 
 
 def test_roles_of_model_and_mission_are_compared(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -8,6 +8,7 @@ from checker.batch.result import MissionResult
 from checker.betting import betting_interval
 from checker.oracle import Judgement, Verdict
 from checker.rate import Method, judge_missions
+from checker.report.sentences import rate_line
 from checker.sampling.adaptive import EXPLORING, Adaptive
 from checker.sampling.sampler import MissionRole, SamplePoint, Setting, ShareAxis, Trial, axes_of, with_point
 from checker.sampling.seeds import mission_seed
@@ -266,7 +267,18 @@ def test_designed_missions_are_in_no_rate_and_still_fail_the_check() -> None:
     assert (rate.observed, rate.counted, rate.failures, rate.method) == (0.0, 30, 1, Method.EXACT)
     assert rate.exceeds
     assert rate.is_certain
-    assert not judge_missions(flown, 0.05, 0.95).exceeds
+    undecided = judge_missions(flown, 0.05, 0.95)  # 0 of 30 leave up to 11.6 %
+    assert (undecided.exceeds, undecided.is_certain) == (True, False)
+    shown = judge_missions(flown, 0.12, 0.95)
+    assert (shown.exceeds, shown.is_certain) == (False, True)
+    passing = [(False, point) for _, point in flown]
+    assert not judge_missions(passing, 0.05, 0.95).exceeds
+
+
+def test_of_no_missions_no_rate_is_told() -> None:
+    assert rate_line(judge_missions([], 0.01, 0.95, is_sequential=True)) == "failure rate: not known"
+    in_flight = judge_missions([(False, SamplePoint())] * 3, 0.01, 0.95, is_sequential=True, gapless=0)
+    assert rate_line(in_flight) == "failure rate: not known"
 
 
 @pytest.mark.parametrize(
