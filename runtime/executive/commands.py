@@ -102,19 +102,19 @@ class Commands:
             self.trace.record(EventKind.ACHIEVED, self.name, *what, request=request.number)
         else:
             reason = Reason(ReasonKind.DECLINED, tick=tick, message="it ended at another time than was asked for")
-            self.give_up(request, EventKind.REJECT, reason)
+            self.give_up(request, EventKind.REJECT, reason, is_done=True)
 
     def decline(self, number: int, why: str, tick: int) -> None:
         """The code does not do what waits."""
         reason = Reason(ReasonKind.DECLINED, tick=tick, message=why or "no reason given")
         self.give_up(self.waiting[number], EventKind.REFUSE, reason)
 
-    def give_up(self, request: Request, kind: EventKind, reason: Reason) -> None:
+    def give_up(self, request: Request, kind: EventKind, reason: Reason, is_done: bool = False) -> None:
         """Record that a request is refused, or given up, and why."""
         self.waiting.pop(request.number, None)
         what = (request.timeline, request.predicate, request.arguments, (request.event,))
         event = self.trace.record(kind, self.name, *what, request=request.number, reason=reason)
-        self.given_up.append(Refusal(request, event))
+        self.given_up.append(Refusal(request, event, is_done))
         if request.is_mandatory:
             self.lost[request.number] = OpenGoal(*what[:3], reason, event=event)
 

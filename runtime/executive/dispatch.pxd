@@ -14,7 +14,7 @@ cdef class Dispatch:
     cdef public Workbench bench
     cdef public list timelines
     cdef public object trace
-    cdef public dict owner_windows, sent, sent_tokens, refused, begun
+    cdef public dict owner_windows, sent, sent_tokens, refused, begun, over
     cdef public bint is_repaired
 
     cpdef bint is_asked(self, long long token) except -1
@@ -60,7 +60,13 @@ cdef class Dispatch:
     @cython.locals(numbers=list, token="long long")
     cpdef list recalls(self, long long tick)
 
-    @cython.locals(bench=Workbench, earliest="long long", first_end="long long", is_refused=bint)
+    @cython.locals(line=TimelineState, token="long long")
+    cpdef bint _hand_on(self, request, long long key, long long tick) except -1
+
+    @cython.locals(earliest="long long", first_end="long long")
+    cpdef bint _is_as_asked(self, request, long long token, long long tick) except -1
+
+    @cython.locals(bench=Workbench)
     cpdef bint _is_void(self, request, long long token, long long key, long long tick) except -1
 
     @cython.locals(line=TimelineState, other="long long")

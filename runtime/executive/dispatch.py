@@ -23,6 +23,7 @@ class Dispatch:
         self.sent_tokens: dict[int, int] = {}
         self.refused: dict[int, int] = {}  # by number: the event in which an owner gave a request up
         self.begun: dict[int, None] = {}  # numbers of requests whose owners have begun what they were asked for
+        self.over: dict[int, None] = {}  # of these, what something else has followed: there is nothing to take back
         self.is_repaired = False  # the plan was repaired since requests were last compared with it
         bench.asked = self.sent
 
@@ -53,6 +54,9 @@ class Dispatch:
         asked = {request.timeline for request in self.sent.values()}
         for line in self.timelines:
             if line.news is not None and line.name in asked:
+                for request in self.sent.values():
+                    if request.timeline == line.name and request.number in self.begun:
+                        self.over[request.number] = None
                 for cause in self.trace.events.causes_at(line.news.event):
                     for request in self.sent.values():
                         if request.event == cause:
@@ -97,9 +101,7 @@ class Dispatch:
             while (token := self.next_request(line)) != NOTHING and self._is_due(line, token, tick, final_tick):
                 request = self._ask(line, token, tick)
                 asked.append(request)
-                self.sent[self.bench.key(token)] = request
-                self.sent_tokens[self.bench.key(token)] = token
-                self.bench.rows.set_flag(token, FLAG_SENT, True)
+                self._note_sent(request, token)
         return asked
 
     def _is_due(self, line: TimelineState, token: int, tick: int, final_tick: int) -> bool:
@@ -209,7 +211,10 @@ class Dispatch:
         numbers = []
         for key, request in list(self.sent.items()):
             token = self.sent_tokens[key]
-            if self._is_void(request, token, key, tick):
+            is_done = request.number in self.over
+            if not self.bench.is_alive(token, key) and self._hand_on(request, key, tick):
+                continue
+            if not is_done and self._is_void(request, token, key, tick):
                 self.trace.record(
                     EventKind.RECALL,
                     self.name,
@@ -219,16 +224,46 @@ class Dispatch:
                     request=request.number,
                 )
                 numbers.append(request.number)
-            elif not self.bench.is_over(token, tick):
+            elif not is_done and not self.bench.is_over(token, tick):
                 continue
             self.refused.pop(request.number, None)
             self.begun.pop(request.number, None)
+            self.over.pop(request.number, None)
             del self.sent[key]
             del self.sent_tokens[key]
             if self.bench.is_alive(token, key):
                 self.bench.rows.set_flag(token, FLAG_SENT, False)
         self.is_repaired = False
         return numbers
+
+    def _hand_on(self, request: Request, key: int, tick: int) -> bool:
+        """Have a request stand for what the plan wants in just its place; what leaves it in a repair is recalled."""
+        if self.is_repaired or request.number in self.begun or request.number in self.refused:
+            return False
+        for line in self.timelines:
+            token = NOTHING if line.name != request.timeline else self.bench.next_of(line.object_id, line.current)
+            while token != NOTHING:
+                if not self.is_asked(token) and self.bench.short_name(token) == request.predicate:
+                    if self._is_as_asked(request, token, tick):
+                        del self.sent[key], self.sent_tokens[key]
+                        self._note_sent(request, token)
+                        return True
+                token = self.bench.following(token)
+        return False
+
+    def _note_sent(self, request: Request, token: int) -> None:
+        self.sent[self.bench.key(token)] = request
+        self.sent_tokens[self.bench.key(token)] = token
+        self.bench.rows.set_flag(token, FLAG_SENT, True)
+
+    def _is_as_asked(self, request: Request, token: int, tick: int) -> bool:
+        """Whether a planned token has the times and arguments that its owner was asked for."""
+        now = self._bounds(request.timeline, token, tick)
+        earliest = max(tick + 1, request.start[0])  # as time goes on, a request bears later times by itself
+        first_end = -INFINITY if request.end[0] == -INFINITY else max(earliest + request.duration[0], request.end[0])
+        asked = ((earliest, request.start[1]), (first_end, request.end[1]), request.duration)
+        is_timely = (now.start, now.end, now.duration) == asked
+        return is_timely and self.bench.arguments(token) == request.arguments
 
     def _is_void(self, request: Request, token: int, key: int, tick: int) -> bool:
         """Whether the plan does not wait for a request: its token is gone, or is to begin anew or otherwise.
@@ -246,19 +281,11 @@ class Dispatch:
             return False
         if request.number in self.begun or self._is_overtaken(request.timeline, token):
             return True
-        is_refused = request.number in self.refused
-        if not self.is_repaired and not is_refused:
-            return False
-        now = self._bounds(request.timeline, token, tick)
-        wanted = (now.start, now.end, now.duration)
-        if is_refused and _is_wider(wanted, (request.start, request.end, request.duration)):
-            return True
-        if not self.is_repaired:
-            return False
-        earliest = max(tick + 1, request.start[0])  # as time goes on, a request bears later times by itself
-        first_end = -INFINITY if request.end[0] == -INFINITY else max(earliest + request.duration[0], request.end[0])
-        asked = ((earliest, request.start[1]), (first_end, request.end[1]), request.duration)
-        return wanted != asked or bench.arguments(token) != request.arguments
+        if request.number in self.refused:
+            now = self._bounds(request.timeline, token, tick)
+            if _is_wider((now.start, now.end, now.duration), (request.start, request.end, request.duration)):
+                return True
+        return self.is_repaired and not self._is_as_asked(request, token, tick)
 
     def _is_overtaken(self, timeline: str, token: int) -> bool:
         """Whether the plan has come to put before a token what its owner has not been asked for yet."""

@@ -61,8 +61,9 @@ class Goals:
         if self.has_news(reach):
             due = [request for request in self.waiting if request.start[0] <= reach]
             self.waiting = [request for request in self.waiting if request.start[0] > reach]
-            for request in sorted(due, key=_earliest):
-                self._post(request, tick)
+            earliest = [(max(request.start[0], tick + 1), place) for place, request in enumerate(due)]
+            for _, place in sorted(earliest):
+                self._post(due[place], tick)
         return self.is_changed
 
     def _post(self, request: Request, tick: int) -> None:
@@ -169,10 +170,10 @@ class Goals:
             conflict=conflict,
             deadlock=deadlock,
         )
-        self.refusals.append(Refusal(request, event))
+        self.refusals.append(Refusal(request, event, kind is ReasonKind.CUT_LOOSE))
         if request.is_mandatory:
             goal = OpenGoal(request.timeline, request.predicate, request.arguments, why, event, conflict, deadlock)
-            self.given_up[request.number] = goal
+            self.given_up.setdefault(request.number, goal)
 
     def _watched(self, conflict: Conflict) -> tuple[Watched, ...]:
         return watched_in(conflict, self.bench, self.timelines, self.posted)
@@ -249,11 +250,15 @@ class Goals:
                 self._drop(goal, ReasonKind.REJECTED, tick)
                 self.bench.remove([goal.token])
 
-    def loosen(self) -> bool:
-        """Free what runs of the bounds of those who asked for it: it is fact, what they asked is not (T-REX 1.9)."""
+    def loosen(self, *, every: bool) -> bool:
+        """Free what runs of the bounds of those who asked for it: it is fact, what they asked is not (T-REX 1.9).
+
+        Those who wait for it no more, since they have taken it back or know that it will not do, or `every` one.
+        """
+        bound = [] if every else [goal.token for goal in self.live() if not goal.is_loose]
         for line in self.timelines:
             if line.is_internal and line.current != NOTHING:
-                self.loosened += self.bench.free_of_requests(line.current)
+                self.loosened += self.bench.free_of_requests(line.current, bound)
         return len(self.loosened) > 0
 
     def bind(self, tick: int) -> None:
@@ -266,8 +271,8 @@ class Goals:
                 bench.rewind_to(mark)
             bench.commit()
             for goal in self.live() if not holds else []:
-                if goal.token == token and goal.token_key == bench.key(token):
-                    goal.is_closed = True
+                if goal.token == token and goal.token_key == bench.key(token) and not goal.is_loose:
+                    goal.is_loose = True
                     self._drop(goal, ReasonKind.CUT_LOOSE, tick)
 
     # ---- the tick ----
@@ -288,7 +293,7 @@ class Goals:
                 goal.is_closed = True
                 if asked.is_cut_off(token):
                     self._drop(goal, ReasonKind.DROPPED, tick)
-                else:
+                elif not goal.is_loose:
                     self.achieved(goal.request)
                 found = True
             elif not bench.is_active(token) and bench.upper(bench.start(token)) <= tick and not bench.is_merged(token):
@@ -336,10 +341,10 @@ class Goals:
 
     def open_goals(self) -> list[OpenGoal]:
         """Mandatory goals that were refused, or that have not run to their end by now."""
-        live = [self._live_goal(goal) for goal in self.live() if goal.request.is_mandatory and not goal.is_rejected]
+        left = [goal for goal in self.live() if goal.request.is_mandatory and goal.request.number not in self.given_up]
         return (
             list(self.given_up.values())
-            + live
+            + [self._live_goal(goal) for goal in left]
             + [_open_goal(request) for request in self.waiting if request.is_mandatory]
         )
 
@@ -353,10 +358,6 @@ class Goals:
             return found
         why = Reason(ReasonKind.CUT_LOOSE, repair=repair.reason)
         return replace(found, reason=why, event=repair.event, conflict=repair.conflict, deadlock=repair.deadlock)
-
-
-def _earliest(request: Request) -> int:
-    return request.start[0]
 
 
 def _open_goal(request: Request) -> OpenGoal:

@@ -173,7 +173,7 @@ class PlanReactor(TeleoReactor):
                     continue
                 self.goals.give_up_failed_starts(tick)
             failure = self._prepare(tick) or self._synchronise(tick)
-            if failure is not None and attempt and self.goals.loosen():
+            if failure is not None and self.goals.loosen(every=attempt > 0):
                 failure = self._prepare(tick) or self._synchronise(tick)
             if failure is None:
                 self.goals.bind(tick)
@@ -383,8 +383,12 @@ class PlanReactor(TeleoReactor):
         return self.dispatch.recalls(self.tick)
 
     def refused(self, refusal: Refusal) -> None:
-        """Take note that an owner will not do what it was asked for: its token will be missed (F6)."""
-        self.dispatch.refused[refusal.request.number] = refusal.event
+        """Take note that an owner will not do what it was asked for: its token will be missed (F6).
+
+        What is done at another time than was asked for is judged by the plan, once it is observed.
+        """
+        if not refusal.is_done:
+            self.dispatch.refused[refusal.request.number] = refusal.event
 
     def _causes_of(self, line: TimelineState) -> tuple[int, ...]:
         """The requests that the current token answers; else what was published before."""

@@ -58,6 +58,7 @@ class Refusal:
 
     request: Request
     event: int
+    is_done: bool = False  # all the same, only that it ends at another time: whether that will do is the sender's to say
 
 
 class TeleoReactor:

@@ -14,4 +14,4 @@ cdef class TimelineState:
 cdef class Goal:
     cdef public object request
     cdef public long long token, token_key, failed_starts
-    cdef public bint is_closed, is_rejected
+    cdef public bint is_closed, is_rejected, is_loose

@@ -35,4 +35,5 @@ class Goal:
         self.token_key = token_key
         self.is_closed = False
         self.is_rejected = False  # the planner could not insert it, so far
+        self.is_loose = False  # it runs, and what was asked of its end cannot be met
         self.failed_starts = 0  # how often the present failed when what it had asked for began

@@ -283,12 +283,15 @@ class Workbench(PlanView):
             engine.retract((), (), needless, ())
             fire(self.plan)
 
-    def free_of_requests(self, t: int) -> list[tuple[int, int, float, float]]:
-        """Free a token of what was asked of its end and length: whose token asked, the variable, its bounds."""
+    def free_of_requests(self, t: int, bound: list[int]) -> list[tuple[int, int, float, float]]:
+        """Free a token of what was asked of its end and length: whose token asked, the variable, its bounds.
+
+        What the tokens in `bound` ask stays.
+        """
         engine, asked, limits = self.engine, [], []
         who = t
         while who >= 0:
-            for v in (self.end(who), self.duration(who)):
+            for v in () if who in bound else (self.end(who), self.duration(who)):
                 for r in engine.restrictions_of(v):
                     if engine.restriction_span[r] == SPAN_REQUEST and not engine.restriction_flags[r] & FLAG_FROZEN:
                         asked.append((who, v, float(engine.restriction_lo[r]), float(engine.restriction_hi[r])))

@@ -252,5 +252,78 @@ def test_an_end_that_a_sender_took_back_does_not_end_the_owner() -> None:
     rules = "User::Busy { equals(Lamp.On on); on.n == k; }"
     goals = busy(parameters=(("k", 1),), start=(5, 5), duration=(3.0, 3.0), recall=7)
     outcome = fly(user(rules), lamp("Lamp::On { duration == 6; }"), goals=goals, until=20)
-    assert lines(outcome, "abort") == []
+    assert lines(outcome, "abort", "relax") == []
     assert history(outcome, "user") == ["0 Idle", "5 Busy(k=1)", "11 Idle"]
+
+
+def test_of_goals_that_may_begin_at_the_same_tick_the_first_of_the_file_comes_first() -> None:
+    goals = (
+        GoalConfiguration("user", "Busy", at=10, start=(9, 30), parameters=(("k", 1),)),
+        GoalConfiguration("user", "Busy", at=10, start=(3, 30), parameters=(("k", 2),)),
+    )
+    outcome = fly(user("User::Busy { duration == 3; }"), lamp(""), goals=goals, until=20)
+    assert history(outcome, "user") == ["0 Idle", "11 Busy(k=1)", "14 Busy(k=2)", "17 Idle"]
+
+
+def test_what_is_over_is_not_taken_back_where_a_repair_plans_it_anew() -> None:
+    rules = "User::Busy { any(Lamp.On on); on.n == k; on.start == start - 3; if (start <= AGENT_CLOCK) { k > 5; } }"
+    goals = busy(parameters=(("k", 2),), start=(10, 40))
+    outcome = fly(user(rules), lamp("Lamp::On { duration == 3; }"), goals=goals, until=12)
+    assert lines(outcome, "request", "recall", "achieved") == [
+        "0 request user Busy(k=2)",
+        "6 request user lamp On(n=2)",
+        "10 achieved sim lamp On(n=2)",
+        "10 request user lamp On(n=2)",
+    ]
+
+
+def chained(rule: str, hand: str, **first: object) -> tuple[list[str], list[str]]:
+    """A boss asks a user, who asks for the lamp, which takes ten ticks; behind the first goal one is to begin by 9."""
+    kinds = USER.replace("User", "Job").replace("Busy", "Make") + USER
+    rules = f"Job::Make {{ starts(User.Busy b); b.k == k; b.end == end; {rule} }}"
+    boss = f"{kinds}{rules}Job job = new Job(Internal); User user = new User(External); close();"
+    goals = (
+        GoalConfiguration("job", "Make", mandatory=True, start=(4, 4), parameters=(("k", 1),), **first),  # type: ignore[arg-type]
+        GoalConfiguration("job", "Make", start=(5, 9), parameters=(("k", 2),)),
+    )
+    owner = lamp("Lamp::On { duration == 10; }")
+    outcome = fly(planner("boss", boss, "job", "user"), user(hand), owner, goals=goals, until=30)
+    told = [line for line in lines(outcome, "reject", "achieved", "abort") if "(k=1)" in line or "abort" in line]
+    return told, open_goals(outcome)
+
+
+HAND = "User::Busy { contains(Lamp.On on); on.n == k; on.end == end; }"
+GIVEN_UP = "it began, and a repair has cut it loose from what was to end it"
+
+
+def test_a_goal_is_kept_whose_plan_can_use_what_ends_later_than_was_asked() -> None:
+    told, left = chained("", HAND)
+    assert told == [
+        f"9 reject user user Busy(k=1): {GIVEN_UP} (Lamp.On#3 goes on at tick 9, later than the plan allows)",
+        "14 achieved boss job Make(k=1)",
+    ]
+    assert left == []
+
+
+def test_a_goal_whose_own_end_is_missed_is_given_up_by_its_own_repair() -> None:
+    told, left = chained("", HAND, duration=(1.0, 9.0))
+    assert [line[: line.index(" (")] for line in told[1:]] == [f"13 reject boss job Make(k=1): {GIVEN_UP}"]
+    assert len(left) == 1
+
+
+def test_a_rule_whose_end_is_missed_since_work_ends_late_ends_the_mission() -> None:
+    told, _ = chained("duration <= 9;", HAND)
+    assert told[1:] == ["13 abort boss user F1: User.Busy#4 goes on at tick 13, later than the plan allows"]
+
+
+@pytest.mark.parametrize(("answer", "relaxes"), [(1, []), (50, []), (100, []), (101, [110])])
+def test_a_plan_with_a_slack_of_a_hundred_ticks_is_repaired_once_where_the_answer_comes_a_tick_later(
+    answer: int, relaxes: list[int]
+) -> None:
+    """Row 4 of the reference: the arm may take from 1 to 100 ticks; what is asked of the end is a goal's to give up."""
+    rules = "User::Busy { equals(Lamp.On on); on.n == k; }"
+    goals = busy(parameters=(("k", 1),), start=(10, 10), duration=(1.0, 100.0))
+    outcome = fly(user(rules), lamp(f"Lamp::On {{ duration == {answer}; }}"), goals=goals, until=200)
+    assert [event.tick for event in outcome.events if event.kind is EventKind.RELAX] == relaxes
+    assert history(outcome, "user") == ["0 Idle", "10 Busy(k=1)", f"{10 + answer} Idle"]
+    assert outcome.abort is None and len(open_goals(outcome)) == len(relaxes)
