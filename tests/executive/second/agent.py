@@ -21,6 +21,7 @@ class Flight:
     numbers: int = 0
     ended: bool = False
     late: list[News] = field(default_factory=list)  # of who was killed while it planned
+    cost: int = 1  # steps that a decision takes
 
     def tell(
         self,
@@ -67,9 +68,12 @@ def execution_latency(part: Part, parts: tuple[Part, ...]) -> int:
     return part.latency + max([execution_latency(one, parts) for one in used], default=0)
 
 
-def fly(description: Description, draw: Draw) -> tuple[list[dict[str, Any]], int]:
-    """The events of a mission, and how many places a planner could have chosen otherwise."""
-    flight = Flight(description, draw)
+def fly(description: Description, draw: Draw, cost: int = 1) -> tuple[list[dict[str, Any]], int]:
+    """The events of a mission, and how many places a planner could have chosen otherwise.
+
+    A decision takes `cost` steps: the text says that a step is one decision, and not what all is one.
+    """
+    flight = Flight(description, draw, cost=cost)
     parts = description.parts
     owner_of = {timeline: part for part in parts for timeline in part.internal}
     owners = {timeline: Owner(execution_latency(part, parts), part.lookahead) for timeline, part in owner_of.items()}
@@ -133,7 +137,7 @@ def _post(
             _deliver(flight, goal, reactors, owner_of, dead)
         if goal.recall == flight.tick:
             flight.tell("recall", "", goal.timeline, goal.predicate, goal.arguments, goal.number)
-            _reactor(reactors, owner_of[goal.timeline]).take_back(goal)
+            _take_back(goal, reactors, owner_of, dead, [])
 
 
 def _reactor(reactors: list[Reactor], part: Part) -> Reactor:
@@ -151,25 +155,29 @@ def _deliver(flight: Flight, goal: Goal, reactors: list[Reactor], owner_of: dict
 
 
 def _deliberate(flight: Flight, reactors: list[Reactor], owner_of: dict[str, Part], dead: set[str]) -> None:
+    """Whoever is most urgent makes a step; who is done tells owners, who are busy then."""
     busy = [one for one in reactors if one.part.name not in dead]
+    for reactor in busy:
+        reactor.steps = 0
     while busy:
-        reactor = min(busy, key=lambda one: one.part.latency)
-        busy.remove(reactor)
+        reactor = max(busy, key=lambda one: (one.urgency(), -reactors.index(one)))
         try:
-            reactor.deliberate()
+            if reactor.step(flight.cost):
+                continue
         except PresentError as failure:
+            busy.remove(reactor)
             flight.late += _failed(flight, reactor, failure, reactors, dead, owner_of)
             if flight.ended:
                 return
+            busy += [one for one in reactors if one.asked and one not in busy and one.part.name not in dead]
             continue
+        busy.remove(reactor)
+        _note_refused(reactors)
         lost, asks = dispatch(reactor)
         for request in lost:
             goal = request.goal
             flight.tell("recall", reactor.part.name, goal.timeline, goal.predicate, goal.arguments, goal.number)
-            owner = _reactor(reactors, owner_of[goal.timeline])
-            if owner.part.name not in dead:
-                owner.take_back(goal)
-                busy += [owner] * (owner not in busy)
+            _take_back(goal, reactors, owner_of, dead, busy)
         for request in asks:
             goal = request.goal
             flight.tell(
@@ -180,10 +188,23 @@ def _deliberate(flight: Flight, reactors: list[Reactor], owner_of: dict[str, Par
             owner = _reactor(reactors, owner_of[goal.timeline])
             if not request.refused:
                 busy += [owner] * (owner not in busy)
+    _note_refused(reactors)
+
+
+def _note_refused(reactors: list[Reactor]) -> None:
     for reactor in reactors:
         for request in reactor.requests:
             if request.goal.state in ("rejected", "cut"):
                 request.refused = True
+
+
+def _take_back(
+    goal: Goal, reactors: list[Reactor], owner_of: dict[str, Part], dead: set[str], busy: list[Reactor]
+) -> None:
+    owner = _reactor(reactors, owner_of[goal.timeline])
+    if owner.part.name not in dead:
+        owner.asked.append(("recall", goal))
+        busy += [owner] * (owner not in busy)
 
 
 def _failed(
@@ -200,7 +221,10 @@ def _failed(
         goal, owner = request.goal, _reactor(reactors, owner_of[request.goal.timeline])
         if goal.state not in ("over", "gone") and owner.part.name not in dead:
             flight.tell("recall", reactor.part.name, goal.timeline, goal.predicate, goal.arguments, goal.number)
-            owner.take_back(goal)
+            owner.asked.append(("recall", goal))
+    for other in reactors:
+        for request in other.requests:
+            request.refused = request.refused or request.goal.timeline in reactor.part.internal
     for timeline in reactor.part.internal:
         flight.tell("observation", reactor.part.name, timeline, "Failed")
     return [News(timeline, "Failed", {}) for timeline in reactor.part.internal]

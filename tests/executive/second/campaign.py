@@ -1,8 +1,6 @@
 """Fly many random missions beside the second agent: `python -m tests.executive.second.campaign 500 --first 1000`.
 
-Each difference is to be judged by the specification. The second agent plans in one go what nddlc plans decision by
-decision, by urgency, and goal by goal what nddlc searches as a whole. Of 16 differences in 1000 missions three were
-looked at, and one was a fault of the second agent; the others are still to be judged.
+A difference is a fault of one of the two, to be judged by the specification, unless a planner had a choice.
 """
 
 import sys
@@ -11,12 +9,11 @@ from collections import Counter
 
 from tests.executive.second.comparing import differences
 from tests.executive.second.generator import random_mission
-
-RARE = 30
+from tests.executive.second.reactor import TooHardError
 
 
 def main() -> int:
-    """Fly COUNT missions from FIRST on; 1 if more than one in `RARE` differs in which no planner had a choice."""
+    """Fly COUNT missions from FIRST on; 1 if any differs in which no planner had a choice."""
     parser = ArgumentParser()
     parser.add_argument("count", type=int)
     parser.add_argument("--first", type=int, default=0)
@@ -24,12 +21,16 @@ def main() -> int:
     given = parser.parse_args()
     tally: Counter[str] = Counter()
     for seed in range(given.first, given.first + given.count):
-        found, choices = differences(random_mission(seed))
+        try:
+            found, choices = differences(random_mission(seed))
+        except TooHardError:
+            tally["too hard for the second agent"] += 1
+            continue
         tally[f"{'differ' if found else 'equal'}{', where a planner had a choice' if choices else ''}"] += 1
         if found and (given.choices or not choices):
             print(f"DIFFERS {seed} ({choices} choices)", *found[:12], sep="\n  ", flush=True)
     print("; ".join(f"{count} {name}" for name, count in sorted(tally.items())))
-    return 1 if tally["differ"] * RARE > given.count else 0
+    return 1 if tally["differ"] else 0
 
 
 if __name__ == "__main__":

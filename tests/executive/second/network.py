@@ -7,10 +7,18 @@ class ContradictionError(Exception):
     """No values are left."""
 
 
+NOBODY, ORDER = -1, -2  # who says something: nobody in particular, the order on a timeline
+
+
 class Network:
-    """`x[j] - x[i] <= w`; bounds are kept tight by going round until nothing changes."""
+    """`x[j] - x[i] <= w`; bounds are kept tight by going round until nothing changes.
+
+    All that is said is kept with who says it (`speaker`, a token): so it can be left out again.
+    """
 
     def __init__(self) -> None:
+        self.speaker = NOBODY
+        self.said: list[tuple[int, str, tuple[int, ...]]] = []
         self.low: list[int] = []
         self.high: list[int] = []
         self.edges: list[tuple[tuple[int, int], ...]] = []  # of i: j and w
@@ -19,12 +27,23 @@ class Network:
     def copy(self) -> "Network":
         """Another network that says the same."""
         other = Network()
+        other.speaker, other.said = self.speaker, self.said[:]
         other.low, other.high = self.low[:], self.high[:]
         other.edges, other.back = self.edges[:], self.back[:]
         return other
 
+    def without(self, speakers: set[int]) -> "Network":
+        """A network without what these have said; its numbers stay."""
+        other = Network()
+        for other.speaker, what, given in self.said:
+            if what == "new" or other.speaker not in speakers:
+                getattr(other, what)(*given)
+        other.speaker = NOBODY
+        return other
+
     def new(self, low: int = -FAR, high: int = FAR) -> int:
         """A number between bounds."""
+        self.said.append((self.speaker, "new", (low, high)))
         self.low.append(low)
         self.high.append(high)
         self.edges.append(())
@@ -33,18 +52,22 @@ class Network:
 
     def least(self, one: int, low: int) -> None:
         """It is `low` or more."""
+        self.said.append((self.speaker, "least", (one, low)))
         self._spread([(one, low, True)])
 
     def most(self, one: int, high: int) -> None:
         """It is `high` or less."""
+        self.said.append((self.speaker, "most", (one, high)))
         self._spread([(one, high, False)])
 
     def within(self, one: int, low: int, high: int) -> None:
         """It lies in a range."""
+        self.said.append((self.speaker, "within", (one, low, high)))
         self._spread([(one, low, True), (one, high, False)])
 
     def differ(self, first: int, second: int, low: int, high: int) -> None:
         """The second less the first lies in a range."""
+        self.said.append((self.speaker, "differ", (first, second, low, high)))
         if high < FAR:
             self._edge(first, second, high)
         if low > -FAR:

@@ -1,7 +1,8 @@
 """A plan of one reactor: tokens over a network of numbers, rules that are carried out, places on timelines."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 from tests.executive.second.description import (
     FAR,
@@ -16,7 +17,7 @@ from tests.executive.second.description import (
     Part,
     Relation,
 )
-from tests.executive.second.network import ContradictionError, Network
+from tests.executive.second.network import NOBODY, ORDER, ContradictionError, Network
 
 Draw = Callable[[str, int], int]  # a parameter, the tick
 
@@ -38,6 +39,12 @@ class Goal:
     order: int = 0
     is_told: bool = False  # that it was rejected
     failures: int = 0  # of the present, when what it had asked for began
+    is_late: bool = False  # it runs, and its end cannot be as was asked
+
+    @property
+    def speaker(self) -> int:
+        """Who says what it asks of end and length, in a network."""
+        return -1000 - self.number
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -74,13 +81,14 @@ class Plan:
     waiting: list[tuple[int, Item]] = field(default_factory=list)
     children: dict[tuple[int, str], int] = field(default_factory=dict)
     choices: int = 0  # that were open to the planner: more than one place
+    decisions: int = 0
 
     def copy(self) -> "Plan":
         """The same plan, to be changed."""
         return Plan(
             self.description, self.part, self.draw, self.now, self.net.copy(), self.tokens[:], self.state[:],
             self.into[:], self.goals_of[:], {key: value[:] for key, value in self.sequence.items()},
-            dict(self.current), self.waiting[:], dict(self.children), self.choices,
+            dict(self.current), self.waiting[:], dict(self.children), self.choices, self.decisions,
         )  # fmt: skip
 
     def new(
@@ -145,15 +153,47 @@ class Plan:
         line = self.sequence.setdefault(token.timeline, [])
         line.insert(place, number)
         self.state[number] = "active"
-        if place > 0:
-            self.net.differ(self.tokens[line[place - 1]].end, token.start, 0, FAR)
-        if place + 1 < len(line):
-            self.net.differ(token.end, self.tokens[line[place + 1]].start, 0, FAR)
+        self._order(line[max(0, place - 1) : place + 2])
         for rule in self.part.rules:
             if (rule.timeline, rule.predicate) == (token.timeline, token.predicate):
                 for item in rule.body:
                     self.carry_out(number, item)
         self.settle()
+
+    def _order(self, line: list[int]) -> None:
+        self.net.speaker = ORDER
+        for before, after in pairwise(line):
+            self.net.differ(self.tokens[before].end, self.tokens[after].start, 0, FAR)
+        self.net.speaker = NOBODY
+
+    def descendants(self, number: int) -> set[int]:
+        """A token that has not begun, with what it has asked for and what follows from that, as far as it has not."""
+        found = {number} if self.state[number] != "begun" else set()
+        for one in self.tokens if found else ():
+            if one.parent == number:
+                found |= self.descendants(one.number)
+        return found
+
+    def removed(self, gone: set[int]) -> "Plan":
+        """The plan without tokens; what was merged with one of them is open again, what has begun goes on by itself."""
+        plan = self.copy()
+        merged = [one for one, state in enumerate(self.state) if state == "merged"]
+        freed = [one for one in merged if one not in gone and self.into[one] in gone]
+        plan.net = self.net.without({*gone, *freed, ORDER})
+        for one in gone:
+            if self.state[one] == "merged":
+                kept = [goal for goal in plan.goals_of[self.into[one]] if goal not in self.goals_of[one]]
+                plan.goals_of[self.into[one]] = tuple(kept)
+            plan.state[one] = "dropped"
+        for one in freed:
+            plan.state[one], plan.into[one] = "open", one
+        plan.tokens = [replace(one, parent=None) if one.parent in gone else one for one in plan.tokens]
+        plan.waiting = [one for one in plan.waiting if one[0] not in gone]
+        for timeline, line in plan.sequence.items():
+            plan.sequence[timeline] = [one for one in line if one not in gone]
+            plan._order(plan.sequence[timeline])
+        plan.settle()
+        return plan
 
     def begin(self, number: int, tick: int) -> None:
         """It begins now."""
@@ -167,17 +207,24 @@ class Plan:
     def merge(self, number: int, other: int) -> None:
         """An open token is another that is there."""
         mine, its = self.tokens[number], self.tokens[other]
+        self.net.speaker = number
         self.net.differ(mine.start, its.start, 0, 0)
         self.net.differ(mine.end, its.end, 0, 0)
         self.net.differ(mine.length, its.length, 0, 0)
         for name, one in mine.arguments.items():
             self.net.differ(one, its.arguments[name], 0, 0)
+        self.net.speaker = NOBODY
         self.state[number], self.into[number] = "merged", other
         self.goals_of[other] = (*self.goals_of[other], *self.goals_of[number])
         self.settle()
 
     def carry_out(self, number: int, item: Item) -> None:
         """One thing that a rule says of a token."""
+        self.net.speaker = number
+        self._carry_out(number, item)
+        self.net.speaker = NOBODY
+
+    def _carry_out(self, number: int, item: Item) -> None:
         net = self.net
         match item:
             case Bound("duration", low, high):

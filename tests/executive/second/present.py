@@ -1,10 +1,10 @@
 """The present of a plan: observations folded in, one current token on each own timeline; and what a repair leaves."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from tests.executive.second.description import FAR
-from tests.executive.second.network import ContradictionError
+from tests.executive.second.network import NOBODY, ContradictionError
 from tests.executive.second.plan import Goal, Plan
 
 
@@ -38,14 +38,16 @@ class Now:
 
 def bound(plan: Plan, number: int, goal: Goal) -> None:
     """Hold a token to what was asked of its end and length."""
+    plan.net.speaker = goal.speaker
     plan.net.within(plan.tokens[number].end, *goal.end)
     plan.last(number, *goal.duration)
+    plan.net.speaker = NOBODY
 
 
-def repaired(plan: Plan, forgets: bool, binds: bool = True) -> tuple[Plan, dict[int, int]]:
+def repaired(plan: Plan, forgets: bool, asked: Sequence[Goal]) -> tuple[Plan, dict[int, int]]:
     """What has begun (and is not over, where it forgets), with its rules; where each token has gone.
 
-    It is fact; what goals ask of its end and length is not, and is left out unless it `binds`.
+    It is fact; what goals ask of its end and length is not, and is left out but for those in `asked`.
     """
     new = Plan(plan.description, plan.part, plan.draw, plan.now, choices=plan.choices)
     moved: dict[int, int] = {}
@@ -63,10 +65,13 @@ def repaired(plan: Plan, forgets: bool, binds: bool = True) -> tuple[Plan, dict[
         new.begin(here, plan.window(old)[0])
         if plan.current[token.timeline] != old:
             new.net.within(new.tokens[here].end, *plan.ends(old))
-        for goal in plan.goals_of[old] if binds and goal_binds(plan, old) else ():
-            bound(new, here, goal)
+        for goal in plan.goals_of[old] if goal_binds(plan, old) else ():
+            if goal in asked:
+                bound(new, here, goal)
     for (parent, label), child in plan.children.items():
         found = plan.stands_for(child)
+        if forgets and plan.tokens[child].timeline not in plan.part.internal:
+            continue  # what is observed stands by itself
         if parent in moved and found in moved and (moved[parent], label) in new.children:
             mine = new.children[moved[parent], label]
             if new.state[mine] == "open":

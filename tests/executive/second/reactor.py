@@ -1,15 +1,20 @@
 """A reactor of the second agent: it synchronises, plans, asks owners, and takes back what it asked for."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
 
-from tests.executive.second.description import Description, Part
+from tests.executive.second.description import FAR, Description, Part
 from tests.executive.second.network import ContradictionError
 from tests.executive.second.plan import Draw, Goal, Plan
 from tests.executive.second.present import News, Now, PresentError, bound, completed, fold_in, repaired
 
 Tell = Callable[..., None]
 KEEPING, FORGETTING, PLANLESS = "keeping the past", "forgetting the past", "no plan"
+MOST = 3000  # places that one search tries
+
+
+class TooHardError(Exception):
+    """A search that goes one by one takes too long."""
 
 
 @dataclass(eq=False, slots=True)
@@ -42,6 +47,14 @@ class Reactor:
     draw: Draw
     number: Callable[[], int]
     plan: Plan = field(init=False)
+    found: Plan | None = None  # the plan whose decisions are being made, and what it makes of goals
+    states: dict[Goal, str] = field(default_factory=dict)
+    left: int = 0  # steps until it is made
+    steps: int = 0  # since there was work
+    tried: int = 0
+    asked: list[tuple[str, Goal]] = field(default_factory=list)  # or recalled, and not taken in
+    order: int = 0
+    needed: dict[Goal, list[Goal]] = field(default_factory=dict)  # of what runs: what was asked of owners for it
     goals: list[Goal] = field(default_factory=list)
     requests: list[Request] = field(default_factory=list)
     tick: int = 0
@@ -69,7 +82,8 @@ class Reactor:
             request.refused = request.refused and request.goal.state != "begun"
         before, first = self.plan, None
         tokens, states = [one.token for one in self.requests], [one.state for one in self.goals]
-        attempts = (("", True), (KEEPING, True), (KEEPING, False), (FORGETTING, True), (FORGETTING, False))
+        self.needed = {goal: self._needs(before, goal) for goal in self.goals if goal.state == "begun"}
+        attempts = (("", True), ("", False), (KEEPING, True), (KEEPING, False), (FORGETTING, True), (FORGETTING, False))
         told = ""
         for stage, binds in attempts:
             for request, token in zip(self.requests, tokens, strict=True):
@@ -79,6 +93,8 @@ class Reactor:
             try:
                 plan = before.copy()
                 plan.now = tick
+                if not (stage or binds):
+                    plan = self._yielded(plan)
                 if stage:
                     if stage != told:
                         self.tell("relax", self.part.name, stage=stage)
@@ -108,7 +124,10 @@ class Reactor:
         try:
             for folded in fold_in(plan, now):
                 if places and self.simulates and now.tick < self.description.final:
-                    folded = self._with_goals(folded, now.tick, reports=False)
+                    found = self._searched(folded, now.tick)
+                    if found is not None:
+                        folded = found[0]
+                        self._take_over(found[1], reports=False)
                 try:
                     return completed(folded, now)
                 except PresentError as failure:
@@ -150,20 +169,29 @@ class Reactor:
         return failure
 
     def _bind(self) -> None:
-        """Hold what runs to what was asked of it, where that can still be; else who asked is told."""
+        """Hold what runs to what was asked of it, each bound where that can still be; else who asked is told."""
         for here in self.plan.current.values():
             for goal in self.plan.goals_of[here]:
-                trial = self.plan.copy()
-                try:
-                    bound(trial, here, goal)
-                    self.plan = trial
-                except ContradictionError:
-                    if goal in self.goals:
-                        self._reject(goal)
-                        self.goals.remove(goal)
+                for each in (replace(goal, duration=(1, FAR)), replace(goal, end=(-FAR, FAR))):
+                    trial = self.plan.copy()
+                    try:
+                        bound(trial, here, each)
+                        self.plan = trial
+                    except ContradictionError:
+                        if goal in self.goals and not goal.is_late:
+                            goal.is_late = True
+                            what = (goal.timeline, goal.predicate, goal.arguments, goal.number)
+                            self.tell("reject", self.part.name, *what)
+
+    def _yielded(self, plan: Plan) -> Plan:
+        """The plan without what is asked of an end by who has taken that back, or knows that it will not do."""
+        asked = [goal for here in plan.current.values() for goal in plan.goals_of[here]]
+        plan.net = plan.net.without({goal.speaker for goal in asked if goal not in self.goals or goal.is_late})
+        return plan
 
     def _relax(self, plan: Plan, forgets: bool, binds: bool = True) -> Plan:
-        relaxed, moved = repaired(plan, forgets, binds)
+        asked = [goal for goal in self.goals if binds and not goal.is_late]
+        relaxed, moved = repaired(plan, forgets, asked)
         for request in self.requests:
             parents = [one.parent for one in plan.tokens if plan.stands_for(one.number) == request.token]
             request.is_kept = any(parent in moved for parent in parents)
@@ -187,18 +215,12 @@ class Reactor:
                 if goal.timeline == timeline and goal.state == "begun":
                     old = next(one for one in plan.sequence[timeline] if goal in plan.goals_of[one])
                     length = tick - plan.window(old)[0]
-                    is_cut = self._is_cut_off(plan, goal, news) or not (
-                        goal.end[0] <= tick <= goal.end[1] and goal.duration[0] <= length <= goal.duration[1]
-                    )
+                    is_timely = goal.end[0] <= tick <= goal.end[1] and goal.duration[0] <= length <= goal.duration[1]
+                    is_cut = self._is_cut_off(goal, news) or not (goal.is_late or is_timely)
                     goal.state = "cut" if is_cut else "over"
-                    self.tell(
-                        "reject" if is_cut else "achieved",
-                        self.part.name,
-                        goal.timeline,
-                        goal.predicate,
-                        goal.arguments,
-                        goal.number,
-                    )
+                    if is_cut or not goal.is_late:
+                        what = (goal.timeline, goal.predicate, goal.arguments, goal.number)
+                        self.tell("reject" if is_cut else "achieved", self.part.name, *what)
             for goal in plan.goals_of[here]:
                 goal.state = "begun"
             token = plan.tokens[here]
@@ -212,12 +234,12 @@ class Reactor:
                 goal.is_told = False  # that it comes back and is rejected again is told anew
         return found
 
-    def _is_cut_off(self, plan: Plan, goal: Goal, news: dict[str, News]) -> bool:
+    def _is_cut_off(self, goal: Goal, news: dict[str, News]) -> bool:
         """Whether an owner has given up what a goal needs, or has failed while it did it."""
         for request in self.requests:
             told = news.get(request.goal.timeline)
             if request.refused or (told is not None and told.predicate == "Failed"):
-                if request.goal in self._needs(plan, goal):
+                if request.goal in self.needed[goal]:
                     return True
         return False
 
@@ -244,21 +266,25 @@ class Reactor:
                     return "an argument does not fit"
         if goal.start[1] <= self.tick:
             return "too late"
-        goal.state, goal.order = "open", len(self.goals)
-        self.goals.append(goal)
+        self.order += 1
+        goal.state, goal.order = "open", self.order
+        self.asked.append(("ask", goal))
         return ""
 
     def take_back(self, goal: Goal) -> None:
         """A goal is recalled: what has begun goes on."""
-        if goal.state == "begun":
+        if goal in self.goals:
             self.goals.remove(goal)
-        elif goal in self.goals:
-            self.goals.remove(goal)
-            if goal.state == "placed":
-                gone = self._needs(self.plan, goal)
-                self.plan = self._present_again(self._relax(self.plan, False))
-                for request in self.requests:
-                    request.is_kept = request.goal not in gone
+        if goal.state == "placed":
+            plan = self.plan
+            here = next(one.number for one in plan.tokens if one.goal is goal and plan.state[one.number] != "dropped")
+            gone = {here} if plan.state[here] == "merged" else plan.descendants(here)
+            self.plan = self.plan.removed(gone)
+            for request in self.requests:
+                request.token = None if request.token in gone else request.token
+            for other in self.goals:
+                if other.state == "rejected" and other.start[1] > self.tick:
+                    other.state = "open"
         goal.state = "gone"
 
     def _present_again(self, plan: Plan) -> Plan:
@@ -271,68 +297,123 @@ class Reactor:
         """Up to where it plans."""
         return min(self.tick + self.latency + max(1, self.part.lookahead), self.description.final)
 
-    def deliberate(self) -> None:
-        """Plan what is open; PresentError if something has no place that cannot be given up."""
-        plan = self._with_goals(self.plan, self.tick + 1)
-        found = self._closed(plan)
+    def step(self, cost: int) -> bool:
+        """Take in what was asked and plan, or make one decision of that plan; whether there is more to do.
+
+        Each decision takes `cost` steps; who looks one tick ahead makes all its decisions in one.
+        """
+        if self.found is None:
+            for what, goal in self.asked:
+                if what == "recall":
+                    self.take_back(goal)
+            self.goals += [goal for what, goal in self.asked if what == "ask" and goal.state == "open"]
+            self.asked = []
+            self.found, self.states = self._planned()
+            self.left = 0 if self.simulates else cost * (self.found.decisions - self.plan.decisions)
+        if self.left > 0:
+            self.left -= 1
+            self.steps += 1
+            return True
+        self.plan, self.found, self.steps = self.found, None, 0
+        self._take_over(self.states)
+        return bool(self.asked)
+
+    def urgency(self) -> float:
+        """How soon it should be given a step."""
+        return 1.0 / ((self.part.latency + 2) * (self.steps + 1))
+
+    def _planned(self) -> tuple[Plan, dict[Goal, str]]:
+        """A plan of what is open; PresentError if something has no place that cannot be given up."""
+        found = self._searched(self.plan, self.tick + 1)
         if found is None:
             self.tell("relax", self.part.name, stage=PLANLESS)
-            plan = self._present_again(self._relax(self.plan, False))
-            found = self._closed(self._with_goals(plan, self.tick + 1))
+            self.plan = self._present_again(self._relax(self.plan, False))
+            found = self._searched(self.plan, self.tick + 1)
             if found is None:
                 raise PresentError("F4")
-        self.plan = found
+        return found
 
-    def _with_goals(self, plan: Plan, earliest: int, reports: bool = True) -> Plan:
-        base = self._closed(plan)
-        waiting = [goal for goal in self.goals if goal.state == "open"]
-        for goal in sorted(waiting, key=lambda one: (max(one.start[0], earliest), one.order)):
-            if max(goal.start[0], earliest) > self.horizon and goal.start[1] >= earliest:
+    def _take_over(self, states: dict[Goal, str], reports: bool = True) -> None:
+        for goal, state in states.items():
+            if goal.state == "gone":
                 continue
-            if max(goal.start[0], earliest) >= self.description.final:
-                continue
-            found = None if base is None else self._with_goal(plan, goal, earliest)
-            if found is not None:
-                goal.state, goal.is_told, plan = "placed", False, found
+            goal.state = state
+            if state == "placed":
+                goal.is_told = False
             elif reports:
                 self._reject(goal)
-        return plan
 
-    def _with_goal(self, plan: Plan, goal: Goal, earliest: int) -> Plan | None:
+    def _searched(self, plan: Plan, earliest: int) -> tuple[Plan, dict[Goal, str]] | None:
+        """A plan with all goals that may begin within the horizon, the earliest first, or without some of them."""
+        goals = []
+        for goal in self.goals:
+            low = max(goal.start[0], earliest)
+            is_near = low <= self.horizon or goal.start[1] < earliest
+            if goal.state == "open" and is_near and low < self.description.final:
+                goals.append(goal)
+        goals.sort(key=lambda one: (max(one.start[0], earliest), one.order))
+        self.tried = 0
+        return self._search(plan, goals, earliest, True)
+
+    def _search(
+        self, plan: Plan, goals: list[Goal], earliest: int, counts: bool
+    ) -> tuple[Plan, dict[Goal, str]] | None:
+        """Depth first: goals, then what else is open, the earliest first; to reject a goal is the last choice."""
+        self.tried += 1
+        if self.tried > MOST:
+            raise TooHardError
+        if goals:
+            options = self._placements(plan, goals[0], earliest)
+            states = {goals[0]: "placed"}
+        else:
+            one = self._next_open(plan)
+            if one is None:
+                return plan, {}
+            options, states = plan.resolved(one), {}
+        first: tuple[Plan, dict[Goal, str]] | None = None
+        for option in options:
+            option.decisions += 1
+            found = self._search(option, goals[1:], earliest, counts and first is None)
+            if found is None:
+                continue
+            if first is not None:
+                if _rejected(found[1]) <= _rejected(first[1]):
+                    first[0].choices += 1
+                    break
+                continue
+            first = found[0], states | found[1]
+            if not counts:
+                break
+        if first is None and goals:
+            found = self._search(plan, goals[1:], earliest, counts)
+            if found is not None:
+                first = found[0], {goals[0]: "rejected"} | found[1]
+                first[0].decisions += 1
+        return first
+
+    def _placements(self, plan: Plan, goal: Goal, earliest: int) -> Iterator[Plan]:
         trial = plan.copy()
         try:
             here = trial.new(goal.timeline, goal.predicate, goal=goal)
             token = trial.tokens[here]
             trial.net.within(token.start, max(goal.start[0], earliest), goal.start[1])
-            trial.net.within(token.end, *goal.end)
-            trial.last(here, *goal.duration)
+            bound(trial, here, goal)
             for name, value in goal.arguments.items():
                 trial.net.within(token.arguments[name], value, value)
         except ContradictionError:
-            return None
-        found = []
-        for placed in trial.resolved(here):
-            closed = self._closed(placed)
-            if closed is not None:
-                found.append(closed)
-        if len(found) > 1:
-            found[0].choices += 1
-        return found[0] if found else None
+            return
+        yield from trial.resolved(here)
 
-    def _closed(self, plan: Plan) -> Plan | None:
+    def _next_open(self, plan: Plan) -> int | None:
         for one in sorted(plan.open(), key=lambda number: (plan.window(number)[0], number)):
-            token = plan.tokens[one]
             low = plan.window(one)[0]
             if low > self.horizon or (low >= self.description.final and low > self.tick):
                 continue
-            own = token.timeline in self.part.internal
+            own = plan.tokens[one].timeline in self.part.internal
             if own and self.simulates and not self._hangs_on_goal(plan, one):
                 continue
-            found = [closed for each in plan.resolved(one) if (closed := self._closed(each)) is not None]
-            if len(found) > 1:
-                found[0].choices += 1
-            return found[0] if found else None
-        return plan
+            return one
+        return None
 
     def _hangs_on_goal(self, plan: Plan, number: int | None) -> bool:
         while number is not None:
@@ -340,3 +421,7 @@ class Reactor:
                 return True
             number = plan.tokens[number].parent
         return False
+
+
+def _rejected(states: dict[Goal, str]) -> int:
+    return sum(state == "rejected" for state in states.values())
