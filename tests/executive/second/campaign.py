@@ -9,7 +9,7 @@ from collections import Counter
 
 from tests.executive.second.comparing import differences
 from tests.executive.second.generator import random_mission
-from tests.executive.second.reactor import TooHardError
+from tests.executive.second.searching import TooHardError
 
 
 def main() -> int:

@@ -1,20 +1,16 @@
 """A reactor of the second agent: it synchronises, plans, asks owners, and takes back what it asked for."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from tests.executive.second.description import FAR, Description, Part
 from tests.executive.second.network import ContradictionError
 from tests.executive.second.plan import Draw, Goal, Plan
 from tests.executive.second.present import News, Now, PresentError, bound, completed, fold_in, repaired
+from tests.executive.second.searching import Found, Search
 
 Tell = Callable[..., None]
 KEEPING, FORGETTING, PLANLESS = "keeping the past", "forgetting the past", "no plan"
-MOST = 3000  # places that one search tries
-
-
-class TooHardError(Exception):
-    """A search that goes one by one takes too long."""
 
 
 @dataclass(eq=False, slots=True)
@@ -51,7 +47,6 @@ class Reactor:
     states: dict[Goal, str] = field(default_factory=dict)
     left: int = 0  # steps until it is made
     steps: int = 0  # since there was work
-    tried: int = 0
     asked: list[tuple[str, Goal]] = field(default_factory=list)  # or recalled, and not taken in
     order: int = 0
     needed: dict[Goal, list[Goal]] = field(default_factory=dict)  # of what runs: what was asked of owners for it
@@ -322,7 +317,7 @@ class Reactor:
         """How soon it should be given a step."""
         return 1.0 / ((self.part.latency + 2) * (self.steps + 1))
 
-    def _planned(self) -> tuple[Plan, dict[Goal, str]]:
+    def _planned(self) -> Found:
         """A plan of what is open; PresentError if something has no place that cannot be given up."""
         found = self._searched(self.plan, self.tick + 1)
         if found is None:
@@ -343,85 +338,6 @@ class Reactor:
             elif reports:
                 self._reject(goal)
 
-    def _searched(self, plan: Plan, earliest: int) -> tuple[Plan, dict[Goal, str]] | None:
-        """A plan with all goals that may begin within the horizon, the earliest first, or without some of them."""
-        goals = []
-        for goal in self.goals:
-            low = max(goal.start[0], earliest)
-            is_near = low <= self.horizon or goal.start[1] < earliest
-            if goal.state == "open" and is_near and low < self.description.final:
-                goals.append(goal)
-        goals.sort(key=lambda one: (max(one.start[0], earliest), one.order))
-        self.tried = 0
-        return self._search(plan, goals, earliest, True)
-
-    def _search(
-        self, plan: Plan, goals: list[Goal], earliest: int, counts: bool
-    ) -> tuple[Plan, dict[Goal, str]] | None:
-        """Depth first: goals, then what else is open, the earliest first; to reject a goal is the last choice."""
-        self.tried += 1
-        if self.tried > MOST:
-            raise TooHardError
-        if goals:
-            options = self._placements(plan, goals[0], earliest)
-            states = {goals[0]: "placed"}
-        else:
-            one = self._next_open(plan)
-            if one is None:
-                return plan, {}
-            options, states = plan.resolved(one), {}
-        first: tuple[Plan, dict[Goal, str]] | None = None
-        for option in options:
-            option.decisions += 1
-            found = self._search(option, goals[1:], earliest, counts and first is None)
-            if found is None:
-                continue
-            if first is not None:
-                if _rejected(found[1]) <= _rejected(first[1]):
-                    first[0].choices += 1
-                    break
-                continue
-            first = found[0], states | found[1]
-            if not counts:
-                break
-        if first is None and goals:
-            found = self._search(plan, goals[1:], earliest, counts)
-            if found is not None:
-                first = found[0], {goals[0]: "rejected"} | found[1]
-                first[0].decisions += 1
-        return first
-
-    def _placements(self, plan: Plan, goal: Goal, earliest: int) -> Iterator[Plan]:
-        trial = plan.copy()
-        try:
-            here = trial.new(goal.timeline, goal.predicate, goal=goal)
-            token = trial.tokens[here]
-            trial.net.within(token.start, max(goal.start[0], earliest), goal.start[1])
-            bound(trial, here, goal)
-            for name, value in goal.arguments.items():
-                trial.net.within(token.arguments[name], value, value)
-        except ContradictionError:
-            return
-        yield from trial.resolved(here)
-
-    def _next_open(self, plan: Plan) -> int | None:
-        for one in sorted(plan.open(), key=lambda number: (plan.window(number)[0], number)):
-            low = plan.window(one)[0]
-            if low > self.horizon or (low >= self.description.final and low > self.tick):
-                continue
-            own = plan.tokens[one].timeline in self.part.internal
-            if own and self.simulates and not self._hangs_on_goal(plan, one):
-                continue
-            return one
-        return None
-
-    def _hangs_on_goal(self, plan: Plan, number: int | None) -> bool:
-        while number is not None:
-            if plan.goals_of[number]:
-                return True
-            number = plan.tokens[number].parent
-        return False
-
-
-def _rejected(states: dict[Goal, str]) -> int:
-    return sum(state == "rejected" for state in states.values())
+    def _searched(self, plan: Plan, earliest: int) -> Found | None:
+        search = Search(self.part, self.tick, earliest, self.horizon, self.description.final)
+        return search.found(plan, [goal for goal in self.goals if goal.state == "open"])
