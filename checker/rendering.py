@@ -54,6 +54,7 @@ _KINDS = {
     ReasonKind.UNKNOWN_PREDICATE: "the timeline has no such predicate",
     ReasonKind.MISFIT: "its arguments do not fit",
     ReasonKind.DROPPED: "dropped in a repair",
+    ReasonKind.LACKING: "an owner had given up what it needed",
     ReasonKind.REJECTED: "the planner found no place for it",
     ReasonKind.CLOCK: "the plan did not allow it to be that late",
     ReasonKind.GOES_ON: "a token went on longer than planned",

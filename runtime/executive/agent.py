@@ -148,6 +148,9 @@ class Agent:
             return self._give_up(reactor, failure)
         self.trace.phase = _OBSERVE
         self._publish(reactor.observations(self.tick))
+        if reactor.lacking:  # who asked for it may be over at the same tick
+            self._tell_refusals(reactor.lacking)
+            reactor.lacking.clear()
         return None
 
     def _publish(self, observations: list[Observation]) -> None:

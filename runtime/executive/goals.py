@@ -39,6 +39,7 @@ class Goals:
         self.posted: list[Goal] = []
         self.to_recall: list[int] = []
         self.refusals: list[Refusal] = []
+        self.lacking: list[Refusal] = []  # of what is over
         self.given_up: dict[int, OpenGoal] = {}  # mandatory ones, by the number of the request
         self.is_changed = False  # something was posted or taken out of the plan
         self.repair: Repair | None = None
@@ -109,13 +110,22 @@ class Goals:
                 continue
             goal.is_closed = True
             self._note_recalled(goal.request)
-            if self.bench.is_alive(goal.token, goal.token_key) and not self.bench.is_started(goal.token, tick):
+            if not self.bench.is_alive(goal.token, goal.token_key):
+                continue
+            if self.bench.is_started(goal.token, tick):
+                self._free(self.bench.stands_for(goal.token))
+            else:
                 self.bench.recorder.cut()
                 seen = hold_present(self.bench, self.timelines)
                 self.bench.remove([goal.token])
                 stand(self.bench, self.timelines, seen)
                 self.is_changed = True
                 self.reopen()
+
+    def _free(self, token: int) -> None:
+        """What runs is bound by those only who still wait for it."""
+        if any(line.current == token for line in self.timelines):
+            self.bench.free_of_requests(token, [goal.token for goal in self.live()])
 
     def _note_recalled(self, request: Request) -> None:
         if request.is_mandatory:
@@ -250,30 +260,30 @@ class Goals:
                 self._drop(goal, ReasonKind.REJECTED, tick)
                 self.bench.remove([goal.token])
 
-    def loosen(self, *, every: bool) -> bool:
-        """Free what runs of the bounds of those who asked for it: it is fact, what they asked is not (T-REX 1.9).
-
-        Those who wait for it no more, since they have taken it back or know that it will not do, or `every` one.
-        """
-        bound = [] if every else [goal.token for goal in self.live() if not goal.is_loose]
+    def loosen(self) -> bool:
+        """Free what runs of the bounds of those who asked for it: it is fact, what they asked is not (T-REX 1.9)."""
         for line in self.timelines:
             if line.is_internal and line.current != NOTHING:
-                self.loosened += self.bench.free_of_requests(line.current, bound)
+                self.loosened += self.bench.free_of_requests(line.current, [])
         return len(self.loosened) > 0
 
     def bind(self, tick: int) -> None:
-        """Bind what runs by what was asked about it, where that still can be; otherwise who asked is told."""
+        """Bind what runs by what a goal asked of it, where all of that still can be; otherwise who asked is told."""
         bench, loosened, self.loosened = self.bench, self.loosened, []
-        for token, variable, lower, upper in loosened:
+        for goal in self.live() if loosened else []:
+            if goal.is_loose or goal.token_key != bench.key(goal.token):
+                continue
             mark = bench.mark()
-            holds = bench.within(variable, (lower, upper), SPAN_REQUEST, token)
+            holds = True
+            for token, variable, lower, upper in loosened:
+                if token == goal.token:
+                    holds = holds and bench.within(variable, (lower, upper), SPAN_REQUEST, token)
             if not holds:
                 bench.rewind_to(mark)
             bench.commit()
-            for goal in self.live() if not holds else []:
-                if goal.token == token and goal.token_key == bench.key(token) and not goal.is_loose:
-                    goal.is_loose = True
-                    self._drop(goal, ReasonKind.CUT_LOOSE, tick)
+            if not holds:
+                goal.is_loose = True
+                self._drop(goal, ReasonKind.CUT_LOOSE, tick)
 
     # ---- the tick ----
 
@@ -292,7 +302,8 @@ class Goals:
             elif bench.is_over(token, tick):
                 goal.is_closed = True
                 if asked.is_cut_off(token):
-                    self._drop(goal, ReasonKind.DROPPED, tick)
+                    self._drop(goal, ReasonKind.LACKING, tick)
+                    self.lacking.append(self.refusals.pop())
                 elif not goal.is_loose:
                     self.achieved(goal.request)
                 found = True

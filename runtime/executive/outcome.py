@@ -162,6 +162,7 @@ class ReasonKind(StrEnum):
     MISFIT = "misfit"
     TOO_LATE = "too late"
     DROPPED = "dropped"
+    LACKING = "lacking"
     REJECTED = "rejected"
     DECLINED = "declined"  # by the code of a reactor in Python
     RECALLED = "recalled"

@@ -58,6 +58,7 @@ class PlanReactor(TeleoReactor):
         bench.late_objects = {line.object_id for line in self.timelines if line.is_internal and not line.is_early}
         self.by_name = {line.name: line for line in self.timelines}
         self.goals = Goals(self.name, bench, self.timelines, trace)
+        self.lacking = self.goals.lacking
         planner.missed = self.goals.missed
         self.goals.rejections = planner.rejections
         self.tick = self.relaxes = self.steps_made = self.work_since = 0
@@ -173,7 +174,7 @@ class PlanReactor(TeleoReactor):
                     continue
                 self.goals.give_up_failed_starts(tick)
             failure = self._prepare(tick) or self._synchronise(tick)
-            if failure is not None and self.goals.loosen(every=attempt > 0):
+            if failure is not None and attempt and self.goals.loosen():
                 failure = self._prepare(tick) or self._synchronise(tick)
             if failure is None:
                 self.goals.bind(tick)

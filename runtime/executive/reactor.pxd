@@ -6,6 +6,7 @@ cdef long long _NEVER
 cdef class TeleoReactor:
     cdef public str name
     cdef public tuple internal, external
+    cdef public list lacking
     cdef public long long latency, lookahead, due, missed, decisions_made
     cdef public bint is_metered, runs_ahead
 

@@ -33,6 +33,7 @@ _REASONS = {
     ReasonKind.MISFIT: "its arguments do not fit{message}",
     ReasonKind.TOO_LATE: "too late",
     ReasonKind.DROPPED: "dropped in the repair",
+    ReasonKind.LACKING: "an owner has given up what it needs",
     ReasonKind.REJECTED: "the planner found no place for it",
     ReasonKind.RECALLED: "taken back",
     ReasonKind.CLOCK: "the plan does not allow it to be tick {tick}",

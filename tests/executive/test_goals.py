@@ -256,6 +256,12 @@ def test_an_end_that_a_sender_took_back_does_not_end_the_owner() -> None:
     assert history(outcome, "user") == ["0 Idle", "5 Busy(k=1)", "11 Idle"]
 
 
+def test_what_runs_goes_on_to_its_own_end_once_it_is_taken_back() -> None:
+    goals = busy(parameters=(("k", 1),), start=(5, 5), duration=(3.0, 3.0), recall=6)
+    outcome = fly(user("User::Busy { duration <= 10; }"), lamp(""), goals=goals, until=20)
+    assert history(outcome, "user") == ["0 Idle", "5 Busy(k=1)", "15 Idle"]
+
+
 def test_of_goals_that_may_begin_at_the_same_tick_the_first_of_the_file_comes_first() -> None:
     goals = (
         GoalConfiguration("user", "Busy", at=10, start=(9, 30), parameters=(("k", 1),)),
@@ -277,8 +283,11 @@ def test_what_is_over_is_not_taken_back_where_a_repair_plans_it_anew() -> None:
     ]
 
 
-def chained(rule: str, hand: str, **first: object) -> tuple[list[str], list[str]]:
-    """A boss asks a user, who asks for the lamp, which takes ten ticks; behind the first goal one is to begin by 9."""
+TEN = lamp("Lamp::On { duration == 10; }")
+
+
+def chained(rule: str, hand: str, owner: Flyer = TEN, **first: object) -> tuple[list[str], list[str]]:
+    """A boss asks a user, who asks for the lamp; behind the first goal one is to begin by 9."""
     kinds = USER.replace("User", "Job").replace("Busy", "Make") + USER
     rules = f"Job::Make {{ starts(User.Busy b); b.k == k; b.end == end; {rule} }}"
     boss = f"{kinds}{rules}Job job = new Job(Internal); User user = new User(External); close();"
@@ -286,7 +295,6 @@ def chained(rule: str, hand: str, **first: object) -> tuple[list[str], list[str]
         GoalConfiguration("job", "Make", mandatory=True, start=(4, 4), parameters=(("k", 1),), **first),  # type: ignore[arg-type]
         GoalConfiguration("job", "Make", start=(5, 9), parameters=(("k", 2),)),
     )
-    owner = lamp("Lamp::On { duration == 10; }")
     outcome = fly(planner("boss", boss, "job", "user"), user(hand), owner, goals=goals, until=30)
     told = [line for line in lines(outcome, "reject", "achieved", "abort") if "(k=1)" in line or "abort" in line]
     return told, open_goals(outcome)
@@ -314,6 +322,17 @@ def test_a_goal_whose_own_end_is_missed_is_given_up_by_its_own_repair() -> None:
 def test_a_rule_whose_end_is_missed_since_work_ends_late_ends_the_mission() -> None:
     told, _ = chained("duration <= 9;", HAND)
     assert told[1:] == ["13 abort boss user F1: User.Busy#4 goes on at tick 13, later than the plan allows"]
+
+
+def test_a_goal_is_not_achieved_whose_work_ends_at_its_own_end_without_what_it_needed() -> None:
+    """The lamp's owner has rejected what is to follow the work; who asked for the work ends with it."""
+    needy = "User::Busy { duration == 5; any(Lamp.On on); on.n == k; on.start == end + 2; on.duration >= 8; }"
+    told, left = chained("", needy, lamp("Lamp::On { duration <= 3; }", lookahead=60))
+    assert [line.partition(" (")[0] for line in told[-2:]] == [
+        "9 reject user user Busy(k=1): an owner has given up what it needs",
+        "9 reject boss job Make(k=1): an owner has given up what it needs",
+    ]
+    assert len(left) == 1
 
 
 @pytest.mark.parametrize(("answer", "relaxes"), [(1, []), (50, []), (100, []), (101, [110])])

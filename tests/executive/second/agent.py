@@ -97,6 +97,7 @@ def fly(description: Description, draw: Draw, cost: int = 1) -> tuple[list[dict[
                 published = _failed(flight, reactor, failure, reactors, dead, owner_of)
                 if flight.ended:
                     return flight.events, _choices(reactors)
+            _note_refused(reactors, "cut")  # who asked for it may be over now, too
             for one in published:
                 if one.predicate != "Failed":
                     flight.tell("observation", reactor.part.name, one.timeline, one.predicate, one.arguments)
@@ -172,7 +173,7 @@ def _deliberate(flight: Flight, reactors: list[Reactor], owner_of: dict[str, Par
             busy += [one for one in reactors if one.asked and one not in busy and one.part.name not in dead]
             continue
         busy.remove(reactor)
-        _note_refused(reactors)
+        _note_refused(reactors, "rejected", "cut")
         lost, asks = dispatch(reactor)
         for request in lost:
             goal = request.goal
@@ -188,13 +189,13 @@ def _deliberate(flight: Flight, reactors: list[Reactor], owner_of: dict[str, Par
             owner = _reactor(reactors, owner_of[goal.timeline])
             if not request.refused:
                 busy += [owner] * (owner not in busy)
-    _note_refused(reactors)
+    _note_refused(reactors, "rejected", "cut")
 
 
-def _note_refused(reactors: list[Reactor]) -> None:
+def _note_refused(reactors: list[Reactor], *states: str) -> None:
     for reactor in reactors:
         for request in reactor.requests:
-            if request.goal.state in ("rejected", "cut"):
+            if request.goal.state in states:
                 request.refused = True
 
 

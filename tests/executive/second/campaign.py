@@ -8,7 +8,7 @@ from argparse import ArgumentParser
 from collections import Counter
 
 from tests.executive.second.comparing import differences
-from tests.executive.second.generator import random_mission
+from tests.executive.second.generator import bounded_mission, random_mission
 from tests.executive.second.searching import TooHardError
 
 
@@ -18,11 +18,13 @@ def main() -> int:
     parser.add_argument("count", type=int)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--choices", action="store_true", help="show differences, too, where a planner had a choice")
+    parser.add_argument("--bounds", action="store_true", help="of goals that say how long they may take")
     given = parser.parse_args()
+    make = bounded_mission if given.bounds else random_mission
     tally: Counter[str] = Counter()
     for seed in range(given.first, given.first + given.count):
         try:
-            found, choices = differences(random_mission(seed))
+            found, choices = differences(make(seed))
         except TooHardError:
             tally["too hard for the second agent"] += 1
             continue

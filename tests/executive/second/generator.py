@@ -1,6 +1,6 @@
 """Random missions of the family in which the text says what must come out; a seed in, a description out."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from numpy.random import Generator, default_rng
 
@@ -49,6 +49,16 @@ class Mission:
     def happens(self, percent: int) -> bool:
         """Whether it does."""
         return self.below(100) < percent
+
+
+def bounded_mission(seed: int) -> Description:
+    """The mission of a seed, some of whose goals say how long they may take."""
+    found, dice = random_mission(seed), default_rng((seed, 1))
+    wishes = []
+    for wish in found.wishes:
+        low, slack = int(dice.choice((1, 2, 3, 5, 8, 12))), int(dice.choice((0, 0, 2, 4, 10)))
+        wishes.append(replace(wish, duration=(low, low + slack)) if dice.integers(2) else wish)
+    return replace(found, name=f"bounded_{seed}", wishes=tuple(wishes))
 
 
 def random_mission(seed: int) -> Description:

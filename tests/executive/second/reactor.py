@@ -1,9 +1,9 @@
 """A reactor of the second agent: it synchronises, plans, asks owners, and takes back what it asked for."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
-from tests.executive.second.description import FAR, Description, Part
+from tests.executive.second.description import Description, Part
 from tests.executive.second.network import ContradictionError
 from tests.executive.second.plan import Draw, Goal, Plan
 from tests.executive.second.present import News, Now, PresentError, bound, completed, fold_in, repaired
@@ -78,7 +78,7 @@ class Reactor:
         before, first = self.plan, None
         tokens, states = [one.token for one in self.requests], [one.state for one in self.goals]
         self.needed = {goal: self._needs(before, goal) for goal in self.goals if goal.state == "begun"}
-        attempts = (("", True), ("", False), (KEEPING, True), (KEEPING, False), (FORGETTING, True), (FORGETTING, False))
+        attempts = (("", True), (KEEPING, True), (KEEPING, False), (FORGETTING, True), (FORGETTING, False))
         told = ""
         for stage, binds in attempts:
             for request, token in zip(self.requests, tokens, strict=True):
@@ -88,8 +88,6 @@ class Reactor:
             try:
                 plan = before.copy()
                 plan.now = tick
-                if not (stage or binds):
-                    plan = self._yielded(plan)
                 if stage:
                     if stage != told:
                         self.tell("relax", self.part.name, stage=stage)
@@ -164,25 +162,18 @@ class Reactor:
         return failure
 
     def _bind(self) -> None:
-        """Hold what runs to what was asked of it, each bound where that can still be; else who asked is told."""
+        """Hold what runs to what a goal asked of it, where all of that can still be; else who asked is told."""
         for here in self.plan.current.values():
             for goal in self.plan.goals_of[here]:
-                for each in (replace(goal, duration=(1, FAR)), replace(goal, end=(-FAR, FAR))):
-                    trial = self.plan.copy()
-                    try:
-                        bound(trial, here, each)
-                        self.plan = trial
-                    except ContradictionError:
-                        if goal in self.goals and not goal.is_late:
-                            goal.is_late = True
-                            what = (goal.timeline, goal.predicate, goal.arguments, goal.number)
-                            self.tell("reject", self.part.name, *what)
-
-    def _yielded(self, plan: Plan) -> Plan:
-        """The plan without what is asked of an end by who has taken that back, or knows that it will not do."""
-        asked = [goal for here in plan.current.values() for goal in plan.goals_of[here]]
-        plan.net = plan.net.without({goal.speaker for goal in asked if goal not in self.goals or goal.is_late})
-        return plan
+                if goal not in self.goals or goal.is_late:
+                    continue
+                trial = self.plan.copy()
+                try:
+                    bound(trial, here, goal)
+                    self.plan = trial
+                except ContradictionError:
+                    goal.is_late = True
+                    self.tell("reject", self.part.name, goal.timeline, goal.predicate, goal.arguments, goal.number)
 
     def _relax(self, plan: Plan, forgets: bool, binds: bool = True) -> Plan:
         asked = [goal for goal in self.goals if binds and not goal.is_late]
@@ -270,6 +261,9 @@ class Reactor:
         """A goal is recalled: what has begun goes on."""
         if goal in self.goals:
             self.goals.remove(goal)
+        if goal.state == "begun":
+            self.plan = self.plan.copy()
+            self.plan.net = self.plan.net.without({goal.speaker})
         if goal.state == "placed":
             plan = self.plan
             here = next(one.number for one in plan.tokens if one.goal is goal and plan.state[one.number] != "dropped")
