@@ -192,7 +192,7 @@ variants: build
 	NDDLC_VARIANTS=1 $(BIN)/python -m pytest -q tests/models/test_variants_explained.py tests/checker/test_yardstick.py
 
 mutants: build
-	$(BIN)/python -m tests.executive.mutants.campaign $(MUTANTS)
+	$(BIN)/python -m tests.executive.mutants.campaign $(MUTANTS) --whole 60 --general 3
 
 agents: build
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS)

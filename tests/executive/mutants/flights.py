@@ -50,6 +50,8 @@ FILES = sorted(
 
 MORE = sorted((ROOT / "tests" / "checker" / "unseen").rglob("mission.toml"))  # of which mutants are explained, too
 
+CASES = ROOT / "tests" / "executive" / "cases"  # 20 times as many as all other missions, and small
+
 TRIALS = 20  # until a mutant is a model
 SHARES = 2
 WITHOUT_CHANCE = 3  # missions of a mutant that samples nothing: all are alike
@@ -143,9 +145,13 @@ class Mutant:
 
 
 def mutant_of(number: int, files: Sequence[Path], limits: Limits) -> tuple[str, Mutant | None]:
-    """The name of mutant `number`, and the mutant itself, unless nothing that was tried is a model."""
+    """The name of mutant `number`, and the mutant itself, unless nothing that was tried is a model.
+
+    Where there are cases and other missions, every second number is of those others.
+    """
     chance = random.Random(number)
-    file = files[chance.randrange(len(files))]
+    kinds = [[one for one in files if (CASES in one.parents) is is_case] for is_case in (True, False)]
+    file = chance.choice(kinds[number % 2] or kinds[1 - number % 2])
     mission, _ = read_mission(file)
     assert mission is not None
     place = str(file.parent.relative_to(ROOT)).replace(" ", "_")
