@@ -136,7 +136,7 @@ def _post(
         if at == flight.tick and owner_of[goal.timeline].name not in dead:
             flight.tell("request", "", goal.timeline, goal.predicate, goal.arguments, goal.number)
             _deliver(flight, goal, reactors, owner_of, dead)
-        if goal.recall == flight.tick:
+        if goal.recall == flight.tick and goal.state != "waiting":
             flight.tell("recall", "", goal.timeline, goal.predicate, goal.arguments, goal.number)
             _take_back(goal, reactors, owner_of, dead, [])
 

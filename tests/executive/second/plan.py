@@ -82,13 +82,14 @@ class Plan:
     children: dict[tuple[int, str], int] = field(default_factory=dict)
     choices: int = 0  # that were open to the planner: more than one place
     decisions: int = 0
+    bare: frozenset[int] = frozenset()  # what is over and forgotten, but for that it has happened
 
     def copy(self) -> "Plan":
         """The same plan, to be changed."""
         return Plan(
             self.description, self.part, self.draw, self.now, self.net.copy(), self.tokens[:], self.state[:],
             self.into[:], self.goals_of[:], {key: value[:] for key, value in self.sequence.items()},
-            dict(self.current), self.waiting[:], dict(self.children), self.choices, self.decisions,
+            dict(self.current), self.waiting[:], dict(self.children), self.choices, self.decisions, self.bare,
         )  # fmt: skip
 
     def new(
@@ -108,6 +109,13 @@ class Plan:
         self.into.append(number)
         self.goals_of.append((goal,) if goal else ())
         return number
+
+    def looks_back(self, number: int) -> bool:
+        """Whether some rule asks for its like among all that has happened, on a timeline of others."""
+        token = self.tokens[number]
+        asked = [item for rule in self.part.rules for item in _items(rule.body) if isinstance(item, Child)]
+        named = [(one.timeline, one.predicate) for one in asked if one.relation in ("any", "after")]
+        return token.timeline not in self.part.internal and (token.timeline, token.predicate) in named
 
     def stands_for(self, number: int) -> int:
         """The token that it was merged with, itself if with none."""
@@ -154,7 +162,7 @@ class Plan:
         line.insert(place, number)
         self.state[number] = "active"
         self._order(line[max(0, place - 1) : place + 2])
-        for rule in self.part.rules:
+        for rule in self.part.rules if number not in self.bare else ():
             if (rule.timeline, rule.predicate) == (token.timeline, token.predicate):
                 for item in rule.body:
                     self.carry_out(number, item)
@@ -357,3 +365,10 @@ class Plan:
                 except ContradictionError:
                     continue
                 yield plan
+
+
+def _items(body: tuple[Item, ...]) -> Iterator[Item]:
+    for item in body:
+        yield item
+        if isinstance(item, Guarded):
+            yield from _items(item.body)

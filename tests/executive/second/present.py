@@ -52,7 +52,8 @@ def repaired(plan: Plan, forgets: bool, asked: Sequence[Goal]) -> tuple[Plan, di
     new = Plan(plan.description, plan.part, plan.draw, plan.now, choices=plan.choices)
     moved: dict[int, int] = {}
     begun = [one for one, state in enumerate(plan.state) if state == "begun"]
-    kept = [one for one in begun if not forgets or plan.current[plan.tokens[one].timeline] == one]
+    current = plan.current.values()
+    kept = [one for one in begun if not forgets or one in current or plan.looks_back(one)]
     for old in sorted(kept, key=lambda one: (plan.window(one)[0], one)):
         token = plan.tokens[old]
         here = new.new(token.timeline, token.predicate)
@@ -61,6 +62,8 @@ def repaired(plan: Plan, forgets: bool, asked: Sequence[Goal]) -> tuple[Plan, di
             if value is not None:
                 new.net.within(new.tokens[here].arguments[name], value, value)
         new.goals_of[here] = plan.goals_of[old]
+        if old in plan.bare or (forgets and old not in current):
+            new.bare |= {here}
         new.insert(here, len(new.sequence.get(token.timeline, [])))
         new.begin(here, plan.window(old)[0])
         if plan.current[token.timeline] != old:
@@ -71,7 +74,7 @@ def repaired(plan: Plan, forgets: bool, asked: Sequence[Goal]) -> tuple[Plan, di
     for (parent, label), child in plan.children.items():
         found = plan.stands_for(child)
         if forgets and plan.tokens[child].timeline not in plan.part.internal:
-            continue  # what is observed stands by itself
+            continue  # what is observed stands by itself, what is over is found anew
         if parent in moved and found in moved and (moved[parent], label) in new.children:
             mine = new.children[moved[parent], label]
             if new.state[mine] == "open":
