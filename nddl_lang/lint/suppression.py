@@ -6,8 +6,9 @@ all findings are meant. Errors cannot be ignored.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import chain
 
 from nddl_lang.analysis import Analysis
 from nddl_lang.lint.codes import NO_SUCH_CODE, UNUSED_SUPPRESSION
@@ -29,9 +30,7 @@ class _Suppression:
     used: set[str]
 
     def matches(self, finding: Diagnostic) -> bool:
-        """Whether the comment takes the finding back; which of its codes did is noted."""
-        if self.line is not None and finding.span.line != self.line:
-            return False
+        """Whether the comment takes back a finding of its line; which of its codes did is noted."""
         if not self.codes:
             self.used.add("")
             return True
@@ -40,9 +39,12 @@ class _Suppression:
         return bool(matching)
 
 
+_Asked = dict[Source, dict[int | None, list[_Suppression]]]  # by line, so that many comments cost no more than few
+
+
 def suppress(analysis: Analysis, findings: tuple[Diagnostic, ...], *, is_linted: bool) -> tuple[Diagnostic, ...]:
     """The findings that no comment takes back, and complaints about comments that take nothing back."""
-    asked: dict[Source, list[_Suppression]] = {}
+    asked: _Asked = {}
     complaints: list[Diagnostic] = []
     for parse in analysis.loaded.parses:
         source = parse.source
@@ -51,14 +53,15 @@ def suppress(analysis: Analysis, findings: tuple[Diagnostic, ...], *, is_linted:
         for span in parse.comments:
             suppression = _read(span, complaints)
             if suppression is not None:
-                asked.setdefault(source, []).append(suppression)
+                asked.setdefault(source, {}).setdefault(suppression.line, []).append(suppression)
     if not asked and not complaints:
         return findings
     kept = [finding for finding in findings if not _is_taken_back(finding, asked)]
     if is_linted:
         root = analysis.loaded.root
         kept += (each for each in complaints if each.span.source is root)
-        kept += (each for each in _unused(asked.get(root, [])) if not _is_taken_back(each, asked))
+        of_root = chain.from_iterable(asked.get(root, {}).values())
+        kept += (each for each in _unused(of_root) if not _is_taken_back(each, asked))
     return tuple(kept)
 
 
@@ -86,14 +89,16 @@ def _read(span: Span, complaints: list[Diagnostic]) -> _Suppression | None:
     return _Suppression(span, line, tuple(codes), set())
 
 
-def _is_taken_back(finding: Diagnostic, asked: dict[Source, list[_Suppression]]) -> bool:
-    if finding.severity is Severity.ERROR:
+def _is_taken_back(finding: Diagnostic, asked: _Asked) -> bool:
+    lines = asked.get(finding.span.source)
+    if finding.severity is Severity.ERROR or lines is None:
         return False
-    matching = [each for each in asked.get(finding.span.source, ()) if each.matches(finding)]
+    near = (*lines.get(None, ()), *lines.get(finding.span.line, ()))
+    matching = [each for each in near if each.matches(finding)]
     return bool(matching)
 
 
-def _unused(suppressions: list[_Suppression]) -> Iterator[Diagnostic]:
+def _unused(suppressions: Iterable[_Suppression]) -> Iterator[Diagnostic]:
     for each in suppressions:
         left = [code for code in each.codes if code not in each.used]
         if UNUSED_SUPPRESSION.id in each.codes:
