@@ -45,22 +45,23 @@ class WatchedCommand(click.Command):
         """Once, or again and again."""
         if not ctx.params.pop("is_watched"):
             return super().invoke(ctx)
-        given = [value for value in ctx.params.values() if isinstance(value, str | Path | tuple)]
+        names = [each.name for each in self.params if isinstance(each, click.Argument)]  # options name what is written
+        given = [value for name in names if isinstance(value := ctx.params.get(name or ""), str | Path | tuple)]
         flat = [str(each) for value in given for each in (value if isinstance(value, tuple) else (value,))]
         named = [path for path in map(Path, flat) if path.exists()]
         dialect = [] if ctx.obj is None else ["--dialect", ctx.obj]
-        return _watch([*dialect, str(ctx.info_name), *ctx.meta[_GIVEN]], named or [Path()])
+        return _watch([*dialect, str(ctx.info_name), *ctx.meta[_GIVEN]], named or [Path()], ctx.params.get("output"))
 
 
-def _watch(arguments: list[str], named: list[Path]) -> int:
+def _watch(arguments: list[str], named: list[Path], output: Path | None) -> int:
     """Run, wait for a change, run again; Ctrl-C ends it in good order."""
     try:
         while True:
-            before = stamps(named)
+            before = stamps(named, output)
             _run(arguments)
             count = len(before)
             click.echo(f"nddlc: watching {count} file{'' if count == 1 else 's'}; Ctrl-C ends it", err=True)
-            changed = _changed(before, named)
+            changed = _changed(before, named, output)
             click.echo(f"nddlc: changed: {', '.join(changed[:3])}{' and more' if len(changed) > 3 else ''}", err=True)
     except KeyboardInterrupt:
         click.echo("\nnddlc: no longer watching", err=True)
@@ -80,24 +81,26 @@ def _run(arguments: list[str]) -> None:
             raise
 
 
-def _changed(before: Stamps, named: list[Path]) -> list[str]:
+def _changed(before: Stamps, named: list[Path], output: Path | None) -> list[str]:
     """Wait until files differ from before, and no longer from one look to the next; which these are."""
     now = before
     while True:
         time.sleep(_PERIOD)
-        last, now = now, stamps(named)
+        last, now = now, stamps(named, output)
         if now == last != before:
             both = sorted({*before, *now})
             return [str(path) for path in both if before.get(path) != now.get(path)]
 
 
-def stamps(named: Iterable[Path]) -> Stamps:
+def stamps(named: Iterable[Path], output: Path | None = None) -> Stamps:
     """When the files that may be read were changed, and how large they are.
 
-    These are the files in the folders that are named, in those of the files that are, and what files name in quotes.
+    These are the files in the folders that are named, in those of the files that are, and what files name in quotes;
+    of the folder `output`, where reports are written, none.
     """
     found: Stamps = {}
-    waiting = [path for each in named for path in _files(each)]
+    written = None if output is None else output.resolve()
+    waiting = [path for each in named for path in _files(each, written)]
     while waiting:
         path = waiting.pop()
         try:
@@ -111,8 +114,8 @@ def stamps(named: Iterable[Path]) -> Stamps:
     return found
 
 
-def _files(named: Path) -> Iterator[Path]:
-    """The files of a folder and the folders below; of a file those beside it."""
+def _files(named: Path, written: Path | None) -> Iterator[Path]:
+    """The files of a folder and the folders below but `written`; of a file those beside it."""
     try:
         beside = sorted((named if named.is_dir() else named.parent).iterdir())
     except OSError:
@@ -120,12 +123,12 @@ def _files(named: Path) -> Iterator[Path]:
     for path in beside:
         if path.suffix in _KINDS and path.is_file():
             yield path
-        elif named.is_dir() and path.is_dir() and not path.is_symlink() and not _is_left_out(path):
-            yield from _files(path)
+        elif named.is_dir() and path.is_dir() and not path.is_symlink() and not _is_left_out(path, written):
+            yield from _files(path, written)
 
 
-def _is_left_out(folder: Path) -> bool:
-    return folder.name.startswith(".") or folder.name in _OUTPUT
+def _is_left_out(folder: Path, written: Path | None) -> bool:
+    return folder.name.startswith(".") or folder.name in _OUTPUT or folder.resolve() == written
 
 
 def _named_in(path: Path, size: int) -> Iterator[Path]:

@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from nddlc.main import run
 from nddlc.watch import stamps
 
@@ -40,6 +42,36 @@ def test_lint_runs_again_after_a_change_and_ends_cleanly(tmp_path: Path) -> None
     assert "nothing wrong in 1 file\n" in text.partition("changed: part.nddl")[0]
     assert "error[NDDL201]: nothing named `SPEED`" in text.partition("changed: part.nddl")[2]
     assert text.endswith("\nnddlc: no longer watching\n") and "Traceback" not in text
+
+
+def test_a_check_without_a_path_watches_the_model_and_not_its_reports(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where there was a report already, its folder was all that was watched, and each report was a change."""
+    (tmp_path / "a.nddl").write_text("int x = 1;\n")
+    (tmp_path / "mission.toml").write_text('[mission]\nname = "a"\n')
+    (tmp_path / "nddlc-report").mkdir()
+    (tmp_path / "nddlc-report" / "report.json").write_text("{}")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "report.json").write_text("{}")
+    monkeypatch.chdir(tmp_path)
+    watched: list[tuple[list[str], set[str]]] = []
+
+    def watch(arguments: list[str], named: list[Path], output: Path | None) -> int:
+        watched.append((arguments, {path.name for path in stamps(named, output)}))
+        return 0
+
+    monkeypatch.setattr("nddlc.watch._watch", watch)
+    assert run(["check", "--watch"]) == 0
+    assert run(["check", "--watch", "--output", "out", "mission.toml"]) == 0
+    assert run(["check", "--watch", "--output", "out"]) == 0
+    assert [given for given, _ in watched] == [
+        ["check"],
+        ["check", "--output", "out", "mission.toml"],
+        ["check", "--output", "out"],
+    ]
+    assert watched[0][1] == {"a.nddl", "mission.toml", "report.json"}  # that of `out`, which is nobody's
+    assert watched[1][1] == watched[2][1] == {"a.nddl", "mission.toml"}
 
 
 def test_what_is_watched_is_what_may_be_read(tmp_path: Path) -> None:
