@@ -1,5 +1,6 @@
 """Follow the includes of a text: all statements in the order of their execution, from all files."""
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
@@ -198,6 +199,9 @@ class _Loader:
         if len(self._chain) > _DEPTH_LIMIT:
             self._report(TOO_DEEP.at(include.span, limit=_DEPTH_LIMIT))
             return []
+        # `rules/../shared/a.nddl` is no path that a repository has; behind a link to a folder it may be another file.
+        short = Path(os.path.normpath(path))
+        path = short if real_path(short) == resolved else path
         return self.load(Source(str(path), text), path, is_in_class, include)
 
     def _find(self, name: str) -> tuple[Path, str] | None:

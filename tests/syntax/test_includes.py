@@ -75,6 +75,33 @@ def test_a_file_is_read_once_whatever_its_path_looks_like(tmp_path: Path) -> Non
     assert len(loaded.included) == 4
 
 
+def test_a_file_is_named_by_the_path_that_a_repository_has_of_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A mark in a pull request at `rules/../shared/a.nddl` is placed nowhere."""
+    write(tmp_path / "rules", root='#include "../shared/a.nddl"\n')
+    write(tmp_path / "shared", a='#include "../rules/b.nddl"\n')
+    write(tmp_path / "rules", b="int b;\n")
+    monkeypatch.chdir(tmp_path)
+    loaded = load_module_graph(Path("rules/root.nddl"))
+    assert [Path(source.name).as_posix() for source in loaded.sources] == [
+        "rules/root.nddl", "shared/a.nddl", "rules/b.nddl",
+    ]  # fmt: skip
+
+
+def test_behind_a_link_to_a_folder_its_parent_is_that_of_the_target(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write(tmp_path / "other", a="int right;\n")
+    (tmp_path / "other" / "rules").mkdir()
+    write(tmp_path / "other" / "rules", root='#include "../a.nddl"\n')
+    write(tmp_path / "here", a="int wrong;\n")
+    (tmp_path / "here" / "rules").symlink_to(tmp_path / "other" / "rules")
+    monkeypatch.chdir(tmp_path)
+    loaded = load_module_graph(Path("here/rules/root.nddl"))
+    assert [source.text for source in loaded.sources if source.name.endswith("a.nddl")] == ["int right;\n"]
+
+
 def test_the_nearest_file_wins(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = write(tmp_path / "model", main='#include "b.nddl"\n')
     first = write(tmp_path / "first", b="int first;\n").parent
