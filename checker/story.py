@@ -138,7 +138,8 @@ def tell(
     shown = _tokens_of(outcome, influence, parameters, until)
     indices = {
         *shown,
-        *sent_requests(outcome, conflict),
+        *sent_requests(outcome, conflict, outcome.last_tick),
+        *(sent_requests(outcome, broken.conflict, broken.tick) if broken is not None else ()),
         *(index for index in events_to_abort(outcome, parameters) if index >= min(shown, default=0)),
     }
     way = [outcome.events[index] for index in sorted(indices)]
@@ -269,15 +270,18 @@ def _events(
     taken: Container[Branch] | None,
 ) -> Iterator[Step]:
     """The events on the way, and where a plan broke first, with what broke it."""
-    told = [Step(StepKind.EVENT, event.tick, event) for event in way if event is not broken]
     if broken is None:
-        yield from told
+        yield from (Step(StepKind.EVENT, event.tick, event) for event in way)
         return
-    yield from (step for step in told if step.tick is not None and step.tick <= broken.tick)
+    events = list(single_events(outcome.events))
+    behind = [one for one in events[events.index(broken) :] if one.tick == broken.tick]
+    rest = [event for event in way if event is not broken]
+    before = [event for event in rest if event.tick <= broken.tick and event not in behind]
+    yield from (Step(StepKind.EVENT, event.tick, event) for event in before)
     yield Step(StepKind.EVENT, broken.tick, broken)
     confirmation = confirm(broken.conflict, text) if broken.conflict is not None else None
     yield from _with_askers(_conflict(broken.conflict, confirmation, StepKind.BROKEN), outcome, text, taken)
-    yield from (step for step in told if step.tick is not None and step.tick > broken.tick)
+    yield from (Step(StepKind.EVENT, event.tick, event) for event in rest if event not in before)
 
 
 def _conflict(

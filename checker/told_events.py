@@ -6,7 +6,7 @@ from checker.batch.result import MissionResult
 from checker.causes import timed_requests
 from checker.losses import Limit
 from runtime.executive.configuration import AgentConfiguration, PropertyKind
-from runtime.executive.events import single_events
+from runtime.executive.events import numbered, single_events
 from runtime.executive.outcome import Conflict, Event, EventKind, Outcome
 
 _MOST_PROMISED = 4  # requests for what a property promises, and their answers
@@ -14,15 +14,16 @@ _ASKED = (EventKind.REQUEST, EventKind.REFUSE, EventKind.REJECT, EventKind.RECAL
 _MOST_LOST = 12  # events that are told of a mission that lost too much
 
 
-def sent_requests(outcome: Outcome, conflict: Conflict | None) -> Iterator[int]:
-    """The last requests of reactors for what the conflict says was asked for by some time."""
+def sent_requests(outcome: Outcome, conflict: Conflict | None, until: int) -> Iterator[int]:
+    """The last requests of reactors, up to a tick, for what the conflict says was asked for by some time."""
     for element in timed_requests(conflict.elements) if conflict is not None else ():
         if element.token is not None:
             wanted = element.token.predicate.rpartition(".")[2]
             sent = [
                 index
-                for index, event in enumerate(outcome.events)
+                for index, event in numbered(outcome.events)
                 if event.kind is EventKind.REQUEST and event.reactor and event.predicate == wanted
+                if event.tick <= until
             ]
             yield from sent[-1:]
 

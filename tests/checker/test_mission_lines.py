@@ -237,7 +237,9 @@ def test_the_story_tells_who_asked_for_it_and_by_when(tmp_path: Path, capsys: py
     capsys.readouterr()
     assert run(["explain", "latest", *kept]) == 0
     told = capsys.readouterr().out
-    assert "Step.Do#2.end <= 20 (as asked for)" in told  # hand gives that up, and goes on
+    asked = told.index("boss requests Do(n=1) on step, to end by tick 20")
+    assert asked < told.index("Step.Do#2.end <= 20 (as asked for)")  # hand gives that up, and goes on
+    assert told.index("hand repairs its plan") < told.index("boss repairs its plan")  # which follows from it
     assert "start = [5, 20]" in told
 
 
