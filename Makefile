@@ -19,6 +19,7 @@
 #   make study        CELL (200) missions of each cell of the founding paper's study, what they show, adaptive sampling of B2,
 #                     and the three mistakes found at sea in one batch; hours, kept in build/study.sqlite and gone on with
 #   make truths       conditions of models whose truth is known, each on FRESH (2000) fresh missions
+#   make fault-conditions  conditions that are printed of the faults made by hand, each on FRESH (2000) fresh missions; hours
 #   make kills        KILLS (20) batches killed by SIGKILL and as many by SIGTERM, resumed, beside undisturbed ones
 #   make agents       AGENTS (500) random missions of random reactors, flown in every way and put to an oracle of their traces
 #   make second       AGENTS (500) random missions beside a second agent, written from the specification alone, trace by trace
@@ -52,7 +53,7 @@ TICKING := $(BIN)/python build_backend/ticking.py
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build engine lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study judge-study conflict-study controllability-proof study truths kills cases variants mutants agents second renames editor-proof vsix conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build engine lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study judge-study conflict-study controllability-proof study truths fault-conditions kills cases variants mutants agents second renames editor-proof vsix conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -179,6 +180,11 @@ FRESH := 2000
 
 truths: build
 	$(BIN)/python -m tests.checker.conditions.truth_study $(FRESH)
+
+UNSEEN := $(patsubst %/hand.toml,%,$(wildcard tests/checker/unseen/*/hand.toml))
+
+fault-conditions: build
+	$(BIN)/python -m tests.checker.conditions.fault_conditions --fresh $(FRESH) $(UNSEEN)
 
 KILLS := 20
 

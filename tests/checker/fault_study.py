@@ -95,6 +95,15 @@ def _edited(folder: Path, edits: Sequence[dict[str, str | int]]) -> dict[str, st
     return texts
 
 
+def laid_out(folder: Path, fault: Fault, place: Path) -> Path:
+    """The files of a model with a fault, at a place of their own."""
+    shutil.rmtree(place, ignore_errors=True)
+    shutil.copytree(folder, place, ignore=shutil.ignore_patterns(*_FAULTS, "variants", "nddlc-report"))
+    for name, text in fault.texts.items():
+        (place / name).write_text(text)
+    return place
+
+
 def changed_lines(before: str, after: str) -> tuple[set[int], set[int]]:
     """The lines of `after` that are new or others, and those behind which lines are gone."""
     old, new = ([line.split("//")[0].rstrip() for line in text.splitlines()] for text in (before, after))
@@ -109,13 +118,7 @@ def changed_lines(before: str, after: str) -> tuple[set[int], set[int]]:
 
 def study(folder: Path, fault: Fault, number: int, missions: int, flights: int) -> Finding:
     """Lay a fault out, fly it, and look for its lines among the causes."""
-    place = _OUT / folder.resolve().name / f"{number:03}"
-    shutil.rmtree(place, ignore_errors=True)
-    shutil.copytree(
-        folder, place, ignore=shutil.ignore_patterns("faults.toml", "hand.toml", "variants", "nddlc-report")
-    )
-    for name, text in fault.texts.items():
-        (place / name).write_text(text)
+    place = laid_out(folder, fault, _OUT / folder.resolve().name / f"{number:03}")
     changed, gone = set[tuple[str, int]](), set[tuple[str, int]]()
     for name, text in fault.texts.items():
         new, lost = changed_lines((folder / name).read_text(), text)

@@ -16,7 +16,7 @@ from checker.sampling.seeds import mission_seed
 from tests.checker.conditions.campaigns import RANGES, campaign, flown, reflying
 
 LEAST = 0.95
-_FRESH_SEED = 987_654_321
+FRESH_SEED = 987_654_321
 _GUARDS = "bool u; bool v; u == (p > {0}); v == (q < {1}); if (u == true) {{ if (v == true) {{ {2} }} }}"
 _WHOLE = "int P = [0 20]; int Q = [0 20]; float R = [0.0 1.0];"
 _CHOICE = "[parameters.P]\nvalues = [1, 2, 4, 8]"
@@ -72,7 +72,7 @@ def study(fresh: int) -> int:
             given = campaign(Path(folder), rule, ranges=ranges, more=more, missions=400, final_tick=final_tick)
             results, agent = flown(given), given.models.agent
             fly, space = given.load(agent), Space(agent, results)
-            missions = [fly_one(fly, Task(number, mission_seed(_FRESH_SEED, number))) for number in range(fresh)]
+            missions = [fly_one(fly, Task(number, mission_seed(FRESH_SEED, number))) for number in range(fresh)]
             for bucket in group_failures(results):
                 found = find_condition(bucket, results, agent, given.mission.check.seed, reflying(given))
                 rows = [
