@@ -37,6 +37,7 @@ class Goals:
         self.lines = {line.name: line for line in timelines}
         self.waiting: list[Request] = []
         self.posted: list[Goal] = []
+        self.written = [(token, bench.key(token)) for token in bench.adopt_script()]  # in the model: nobody is told
         self.to_recall: list[int] = []
         self.refusals: list[Refusal] = []
         self.lacking: list[Refusal] = []  # of what is over
@@ -307,9 +308,12 @@ class Goals:
                 elif not goal.is_loose:
                     self.achieved(goal.request)
                 found = True
-            elif not bench.is_active(token) and bench.upper(bench.start(token)) <= tick and not bench.is_merged(token):
+            elif bench.is_missed(token, tick):
                 goal.is_closed = True
                 self._drop(goal, ReasonKind.TOO_LATE, tick)
+                late.append(token)
+        for token, key in self.written:
+            if self.bench.is_alive(token, key) and self.bench.is_missed(token, tick):
                 late.append(token)
         if late:
             self.bench.recorder.cut()

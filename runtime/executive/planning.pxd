@@ -51,7 +51,7 @@ cdef class Planner:
     cdef public _Window window
     cdef public Solver solver
     cdef public object max_steps, max_depth, missed
-    cdef public bint is_fresh
+    cdef public bint is_fresh, plans_ahead
     cdef public dict rejections
     cdef public long long deepest, kept_depth, resolved
 

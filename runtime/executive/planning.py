@@ -9,7 +9,7 @@ from runtime.executive.view import SPAN_CLOCK
 from runtime.executive.workbench import Workbench
 from runtime.limits import LimitError
 from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, LIST_THREAT, LISTS, ROLE_LOCAL, ROLE_TOKEN
-from runtime.solver.configuration.configuration import Configuration, FlawFilter, Match
+from runtime.solver.configuration.configuration import Configuration, FlawFilter, Match, default_configuration
 from runtime.solver.flaws.filters import PlanningScope
 from runtime.solver.search import Solver
 from runtime.solver.tags import EXHAUSTED, PLAN
@@ -137,7 +137,8 @@ class _Window(PlanningScope):
 class Planner:
     """The solver of one reactor; its decisions are made final at the end of each episode.
 
-    Without `max_steps` and `max_depth` there is no limit that the model could be blamed for.
+    Without `max_steps` and `max_depth` there is no limit that the model could be blamed for. Where the configuration
+    leaves out every flaw nothing is planned, and what holds now is settled by the default one (T-REX 1).
     """
 
     def __init__(
@@ -151,6 +152,9 @@ class Planner:
         self.bench = bench
         self.window = _Window(bench)
         self.window.final = final_tick
+        self.plans_ahead = not any(_is_of_all(each) for each in configuration.filters)
+        if not self.plans_ahead:
+            configuration = default_configuration()
         bench.engine.trail_most = _MOST_CHANGES
         self.solver = Solver(bench.database, _within_window(configuration), 0, 1, False)
         self.solver.set_scope(self.window)
@@ -166,6 +170,8 @@ class Planner:
 
     def deliberate(self, tick: int, end: int) -> int:
         """Make one decision inside [tick, end]; how the episode stands now."""
+        if not self.plans_ahead:
+            return EPISODE_DONE
         self._begin(tick, end)
         outcome = self.solver.step()
         if outcome == PLAN and self.window.left_open and self.window.is_any_bound():
@@ -188,6 +194,8 @@ class Planner:
 
     def has_flaw(self, tick: int, end: int) -> bool:
         """Whether there is something to decide inside [tick, end]."""
+        if not self.plans_ahead:
+            return False
         self._begin(tick, end)
         return bool(self.solver.has_flaw())
 
@@ -300,6 +308,11 @@ def _within_window(configuration: Configuration) -> Configuration:
     clock = FlawFilter(match=Match(variable="AGENT_CLOCK"))
     filters = (*_without_horizon(configuration.filters), clock)
     return replace(configuration, filters=filters, managers=tuple(managers))
+
+
+def _is_of_all(one: FlawFilter) -> bool:
+    """Whether a filter leaves out everything: it has no component of its own, and names at most the root of classes."""
+    return one.component == "FlawFilter" and one.match in (Match(), Match(class_name="Object"))
 
 
 def _without_horizon(filters: tuple[FlawFilter, ...]) -> tuple[FlawFilter, ...]:

@@ -259,6 +259,10 @@ class PlanView:
         """The token of the plan that `t` is, or is merged into."""
         return self.rows.merged_into[t] if self.rows.status[t] == MERGED else t
 
+    def is_missed(self, t: int, tick: int) -> bool:
+        """Whether the token has no place in the plan, and can begin no more."""
+        return not self.is_active(t) and not self.is_merged(t) and self.upper(self.start(t)) <= tick
+
     def is_nobodys(self, t: int) -> bool:
         """Whether the token is neither an observation nor a goal, and the one that asked for it is gone."""
         return self.rows.parent[t] == NONE and not self.is_fact(t) and not self.is_goal(t)
@@ -364,13 +368,14 @@ class PlanView:
         return self.object_of(t) in self.internal_objects
 
     def must_begin(self, o: int, tick: int) -> list[int]:
-        """Undecided tokens on a timeline that can begin at `tick` only.
+        """Undecided tokens on a timeline that can begin at `tick` only; at tick 0, facts that may, for they hold.
 
         Of goals, a planner gives up those, for they have no plan; the world, which plans no farther, begins them.
         """
         found = [t for t in self.undecided() if self.object_of(t) == o and (self.is_reactive or not self.is_goal(t))]
         found.sort(key=self.is_goal)
-        return [t for t in found if self.engine.lower(self.start(t)) <= tick == self.engine.upper(self.start(t))]
+        due = [t for t in found if self.lower(self.start(t)) <= tick <= self.upper(self.start(t))]
+        return [t for t in due if self.upper(self.start(t)) == tick or (tick == 0 and self.is_fact(t))]
 
     def waits_for_own(self, t: int, tick: int) -> bool:
         """Whether the token is to follow one of this reactor that has not begun, and that nobody asked for."""

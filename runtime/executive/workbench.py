@@ -178,6 +178,28 @@ class Workbench(PlanView):
         """Make the token of a request."""
         return self._make(predicate, o, FLAG_GOAL | FLAG_REJECTABLE, SPAN_REQUEST)
 
+    def adopt_script(self) -> list[int]:
+        """Let what the script states hold, and what it wants begin, in the mission, not before; what may be given up.
+
+        What it wants is asked for.
+        """
+        found: list[int] = []
+        for t in self.all_tokens():
+            flags = self.rows.flags[t]
+            is_wanted = flags & (FLAG_GOAL | FLAG_REJECTABLE) != 0
+            if self.rows.parent[t] >= 0 or self.rows.status[t] != INACTIVE or not (is_wanted or self.is_internal(t)):
+                continue
+            mark = self.mark()
+            if not self.at_least(self.start(t), 0, SPAN_CLOCK, t):
+                self.rewind_to(mark)
+            self.commit()
+            if is_wanted:
+                self.rows.flags[t] = flags | FLAG_GOAL
+                self.remember_request(t)
+            if flags & FLAG_REJECTABLE:
+                found.append(t)
+        return found
+
     def _make(self, predicate: int, o: int, flags: int, span: int) -> int:
         given = NONE if o < 0 else self.plan.object_constant[o]
         return make_token(self.plan, predicate, flags, NONE, NONE, given, span)
