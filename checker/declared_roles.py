@@ -4,7 +4,7 @@ In T-REX the model says it (`Lights lum = new Lights(Internal)`), and an agent f
 the text, since a mission file is read before its models are compiled: a mode is a word in `new` or in a constructor.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from checker.model_graph import read_model
@@ -38,19 +38,30 @@ def declared_roles(model: Path) -> dict[str, tuple[str, ...]]:
         if isinstance(statement, VariableDecl):
             for one in statement.declarators:
                 if isinstance(one.initialiser, NewExpr):
-                    for key in _KEYS.get(_mode(one.initialiser, classes), ()):
-                        found[key].append(one.name.name)
+                    for name, mode in _made(one.name.name, _words(one.initialiser, {}), classes):
+                        for key in _KEYS.get(mode, ()):
+                            found[key].append(name)
     return {key: tuple(names) for key, names in found.items()}
 
 
-def _mode(made: NewExpr, classes: Mapping[str, ClassDecl]) -> str:
-    """The mode with which an object is made; empty if the text does not tell, or it is no timeline of an agent."""
-    name: str = made.class_name.name
-    given = tuple(_word(each, {}) for each in made.arguments)
+_Words = tuple[str, tuple[str, ...]]  # a class, and the names given to its constructor
+
+
+def _made(
+    name: str, new: _Words, classes: Mapping[str, ClassDecl], around: frozenset[str] = frozenset()
+) -> Iterator[tuple[str, str]]:
+    """The objects of a global variable and of what constructors put into its members, each with its mode.
+
+    The mode is empty if the text does not tell it, or if the object is no timeline of an agent.
+    """
+    class_name, given = new
+    mode = ""
+    parts: list[tuple[str, _Words]] = []
     for _ in range(_DEEPEST):
-        code = classes.get(name)
+        code = classes.get(class_name)
         if code is None or code.members is None:  # that it is not there is told where the model is read
-            return next((word for word in given if word in _KEYS), "")
+            mode = next((word for word in given if word in _KEYS), "")
+            break
         made_by = next(
             (one for one in code.members if isinstance(one, ConstructorDecl) and len(one.parameters) == len(given)),
             None,
@@ -61,15 +72,25 @@ def _mode(made: NewExpr, classes: Mapping[str, ClassDecl]) -> str:
             if made_by is None
             else {one.name.name: word for one, word in zip(made_by.parameters, given, strict=True)}
         )
-        if name == _TIMELINE:
-            set_to = [one.value for one in body if isinstance(one, Assignment) and one.target.parts[-1].name == _MODE]
-            return _word(set_to[0], values) if set_to else ""
+        set_to = [(one.target.parts[-1].name, one.value) for one in body if isinstance(one, Assignment)]
+        parts += [(member, _words(value, values)) for member, value in set_to if isinstance(value, NewExpr)]
+        if class_name == _TIMELINE:
+            mode = next((_word(value, values) for member, value in set_to if member == _MODE), "")
+            break
         if code.base is None:
-            return ""
+            break
         above = next((one for one in body if isinstance(one, SuperCall)), None)
         given = () if above is None else tuple(_word(each, values) for each in above.arguments)
-        name = code.base.name
-    return ""
+        class_name = code.base.name
+    yield name, mode
+    inner = around | {new[0]}
+    for member, words in parts:
+        if words[0] not in inner:  # a class that makes one of its own kind has no end
+            yield from _made(f"{name}.{member}", words, classes, inner)
+
+
+def _words(made: NewExpr, values: Mapping[str, str]) -> _Words:
+    return made.class_name.name, tuple(_word(each, values) for each in made.arguments)
 
 
 def _word(value: Expr, values: Mapping[str, str]) -> str:

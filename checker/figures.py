@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from checker.codes import NO_ARGUMENT, NO_OWNER, NO_PREDICATE
 from checker.mission_table import MissionText, Table
+from checker.named_objects import named_objects
 from compiler.program import PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
@@ -97,5 +98,5 @@ def _predicates_of(
     program = next((programs[one.model] for one in listed if one.model in programs), None)
     if program is None:
         return ()
-    objects = {name: code.type_name for name, code in program.globals if code.kind == "object"}
+    objects = named_objects(program)
     return [one for one in program.predicates if one.class_name == objects.get(timeline)]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from checker.codes import OUT_OF_RANGE, OUT_OF_TIME
 from checker.mission_table import MissionText
+from checker.named_objects import named_objects
 from compiler.program import DomainConstant, ParameterCode, Program
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
@@ -87,8 +88,7 @@ def strange_value(parameter: ParameterCode, value: Value | Bounds, program: Prog
             return _strange_name(value, _allowed([*known], domains), f"a value of `{parameter.type.type_name}`")
         case "object":
             wanted = parameter.type.type_name
-            objects = [name for name, code in program.globals if code.kind == "object"]
-            fitting = [name for name in objects if _is_a(_class_of(name, program), wanted, program)]
+            fitting = [name for name, own in named_objects(program).items() if _is_a(own, wanted, program)]
             return _strange_name(value, fitting, f"an object of class `{wanted}`")
         case _:
             texts = [str(one) for domain in domains for one in domain.values or ()]
@@ -138,10 +138,6 @@ def _allowed(known: list[str], domains: list[DomainConstant]) -> list[str]:
         if domain.values is not None:
             known = [name for name in known if name in domain.values]
     return known
-
-
-def _class_of(name: str, program: Program) -> str:
-    return next(code.type_name for other, code in program.globals if other == name)
 
 
 def _is_a(name: str | None, ancestor: str, program: Program) -> bool:

@@ -16,6 +16,7 @@ from checker.codes import (
 from checker.goal_fit import strange_value
 from checker.mission import Mission
 from checker.mission_table import describe
+from checker.named_objects import named_objects
 from compiler.program import DomainConstant, ParameterSite, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.nearest import nearest
@@ -33,7 +34,7 @@ def find_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[
     owners: dict[str, Program] = {}
     for number, reactor in enumerate(mission.agent.reactors):
         program = programs[reactor.model]
-        objects = _objects(program)
+        objects = named_objects(program)
         for key, timelines in (("internal", reactor.internal), ("external", reactor.external)):
             for index, timeline in enumerate(timelines):
                 if timeline not in objects:
@@ -46,7 +47,7 @@ def find_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[
         owner = owners.get(goal.timeline)
         if owner is None:
             continue
-        class_name = _objects(owner)[goal.timeline]
+        class_name = named_objects(owner)[goal.timeline]
         predicates = {one.name.rpartition(".")[2]: one for one in owner.predicates if one.class_name == class_name}
         predicate = predicates.get(goal.predicate)
         if predicate is None:
@@ -151,14 +152,9 @@ def complete(mission: Mission, sites: Mapping[str, ParameterSite]) -> AgentConfi
     return replace(mission.agent, parameters=tuple(parameters))
 
 
-def _objects(program: Program) -> dict[str, str]:
-    """The class of each object that a global variable holds."""
-    return {name: code.type_name for name, code in program.globals if code.kind == "object"}
-
-
 def _has(program: Program, timeline: str, predicate: str) -> bool:
     """Whether a timeline of the model has a predicate of that name."""
-    full_name = f"{_objects(program)[timeline]}.{predicate}"
+    full_name = f"{named_objects(program)[timeline]}.{predicate}"
     return any(one.name == full_name for one in program.predicates)
 
 

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from checker.codes import NO_REQUESTS, NO_THREATS
 from checker.judge.resources import resources_of
 from checker.mission import Mission
+from checker.named_objects import named_objects
 from compiler.instructions import all_instructions
 from compiler.program import Child, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note
@@ -54,7 +55,7 @@ def vain_requests(mission: Mission, number: int, program: Program, modes: Mappin
         for child in all_instructions(rule.body)
         if isinstance(child, Child) and child.predicate not in past
     }
-    classes = {name: code.type_name for name, code in program.globals if code.kind == "object"}
+    classes = named_objects(program)
     for index, timeline in enumerate(reactor.external):
         owner, child = owners.get(timeline), asked.get(classes.get(timeline, ""))
         is_observed = timeline in reactor.observe or modes.get(timeline) in _DO_NOT_ACT

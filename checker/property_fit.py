@@ -17,6 +17,7 @@ from checker.goal_fit import strange_value
 from checker.judge.resources import resources_of
 from checker.mission import Mission
 from checker.mission_table import describe
+from checker.named_objects import named_objects
 from checker.properties import names_of
 from compiler.program import TOKEN_TIMES, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic
@@ -81,7 +82,7 @@ def _pattern_misfits(
     program = next((programs[one.model] for one in listed if one.model in programs), None)
     if program is None:
         return
-    objects = {name: code.type_name for name, code in program.globals if code.kind == "object"}
+    objects = named_objects(program)
     class_name = objects.get(pattern.timeline)
     own = [one for one in program.predicates if one.class_name == class_name]
     known = {one.name.rpartition(".")[2]: one for one in own}

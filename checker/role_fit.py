@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from checker.codes import NO_DEFAULT, OTHER_ROLE, UNLISTED
 from checker.mission import Mission
+from checker.named_objects import named_objects
 from checker.planner_fit import vain_requests
 from compiler.program import ClassCode, Constant, Program, SuperCode
 from nddl_lang.text.diagnostic import Diagnostic, Note
@@ -52,9 +53,10 @@ def find_role_misfits(
         yield from vain_requests(mission, number, programs[reactor.model], modes)
         written = (*reactor.internal, *reactor.external)
         meant = {each if each in names else nearest(each, names) for each in written}  # a misspelt one is told already
+        named = named_objects(programs[reactor.model])
         for timeline in names:
             mode = bench.mode(names.index(timeline))
-            if mode in _KEYS and timeline not in meant and _is_global(programs[reactor.model], timeline):
+            if mode in _KEYS and timeline not in meant and timeline in named:
                 key_path = (*mission.text.reactor_path(number), _KEYS[mode])
                 is_there = key_path in mission.text.places
                 span = mission.text.value_span(key_path) if is_there else mission.text.key_span(key_path[:2])
@@ -85,16 +87,12 @@ def _move(timeline: str, mode: str) -> str:
     return f"list `{timeline}` under `{key}`, or change its mode in the model"
 
 
-def _is_global(program: Program, timeline: str) -> bool:
-    return any(name == timeline and code.kind == "object" for name, code in program.globals)
-
-
 def _declared(program: Program, timeline: str) -> tuple[Note, ...]:
     """Where the model makes the object of a timeline."""
     names = [name for name, _ in program.globals]
     for each in program.script:
         index = getattr(each, "global_index", None)
-        if index is not None and names[index] == timeline:
+        if index is not None and names[index] == timeline.partition(".")[0]:
             return (Note("made here", each.span),)
     return ()
 
