@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from checker.codes import MISSING_KEY, NO_EFFECT, NO_FILE, TWICE, UNKNOWN_ELEMENT, UNKNOWN_KEY, WRONG_TYPE
+from checker.first_agent_file import REACTOR, of_second_form
 from checker.mission_table import MissionText, TomlTable
 from compiler.program import TOKEN_TIMES
 from nddl_lang.lint.configuration import settings_in
@@ -19,7 +20,7 @@ from nddl_lang.text.read import read_source
 from nddl_lang.text.source import Source, Span
 from nddl_lang.text.toml_places import Path as Keys
 from nddl_lang.text.toml_places import Stretch
-from runtime.solver.configuration.element import Attribute, Element
+from runtime.solver.configuration.element import Attribute, Element, moved
 from runtime.solver.configuration.read_xml import read_xml
 from runtime.user.transaction_log import SUFFIX, TransactionLogError, read_transaction_log
 
@@ -48,7 +49,7 @@ _PLAYED = {"name": "name", "latency": "latency", "lookahead": "lookahead"}
 _UNREAD = ("config", "log", "verbose", "all_plans", "relation_gv")  # what T-REX writes beside the mission
 _FLAGS = {"true": True, "1": True, "false": False, "0": False}
 _DOMAINS = ("int", "float", "bool", "string", "symbol", "enum", "date", "duration")
-_CONTENTS = ("Use", "Plugin", "Goal", "EuropaReactor", "PythonReactor", "LogPlayer", *_CLOCKS)
+_CONTENTS = ("Use", "Plugin", "Goal", "EuropaReactor", "PythonReactor", "LogPlayer", REACTOR, *_CLOCKS)
 _EUROPA = "europa_pg"  # T-REX's plug-in of the reactors that are at home here
 
 
@@ -75,6 +76,7 @@ class _AgentFile:
             self.text.diagnostics.append(UNKNOWN_ELEMENT.at(agent.span, tag=agent.tag, parent="an agent file"))
             return {}
         agent = self._with_config(agent)
+        agent = of_second_form(agent, self.root, self._found, self.text.diagnostics)
         self._put(("mission",), agent.span)
         self._attributes(agent, self.mission, ("mission",), _AGENT, _AGENT_UNREAD)
         self._contents(agent)
@@ -150,7 +152,7 @@ class _AgentFile:
         # The mission's places are those of one file, so what comes from another stands where that is named.
         own = {attribute.name for attribute in element.attributes}
         added = tuple(Attribute(one.name, one.value, named.span) for one in found.attributes if one.name not in own)
-        children = tuple(_moved(child, named.span) for child in found.children)
+        children = tuple(moved(child, named.span) for child in found.children)
         return Element(element.tag, element.attributes + added, children + element.children, element.span)
 
     def _reactor(self, element: Element, known: dict[str, str]) -> None:
@@ -363,11 +365,6 @@ def read_agent_file(source: Source, root: Path) -> tuple[MissionText, TomlTable 
     agent, diagnostics = read_xml(source)
     text.diagnostics += diagnostics
     return text, None if agent is None else _AgentFile(text, root, places).read(agent)
-
-
-def _moved(element: Element, span: Span) -> Element:
-    attributes = tuple(Attribute(one.name, one.value, span) for one in element.attributes)
-    return Element(element.tag, attributes, tuple(_moved(child, span) for child in element.children), span)
 
 
 def _value(text: str) -> bool | int | float | str:

@@ -35,3 +35,9 @@ class Element:
 def stretch(source: Source, begin: int, end: int) -> Span:
     """The span of some characters of `source`."""
     return Span(Anchor(source), begin, max(begin, end))
+
+
+def moved(element: Element, span: Span) -> Element:
+    """An element as if it were written, with all that is in it, at another place."""
+    attributes = tuple(Attribute(one.name, one.value, span) for one in element.attributes)
+    return Element(element.tag, attributes, tuple(moved(child, span) for child in element.children), span)

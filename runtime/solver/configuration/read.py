@@ -37,6 +37,7 @@ from runtime.solver.configuration.words import (
     RESOURCE_ORDERS,
     STANDARD,
     TOKEN_ORDERS,
+    WINDOW_FILTERS,
 )
 from runtime.solver.tags import MANAGER_NAMES, NONE, RESOURCE_THREAT, WORST_PRIORITY
 
@@ -79,10 +80,11 @@ class _Reading:
         if root.tag != "Solver":
             self.complaints.append(WRONG_ROOT.at(root.span, name=root.tag))
             return Configuration("", (), ())
-        filters, managers = [], []
+        filters: list[FlawFilter] = []
+        managers = []
         for child in root.children:
             if child.tag == "FlawFilter":
-                filters.append(self.filter(child))
+                filters += self.filter(child)
             else:
                 managers.append(self.manager(child))
         name = root.find("name")
@@ -105,11 +107,11 @@ class _Reading:
             place, help_ = names.get(misspelt or "", element.span), _help(misspelt or "", ("component", *MANAGER_NAMES))
             self.complaints.append(MISSING_ATTRIBUTE.at(place, element="manager", name="component", help=help_))
         default = self.number(element, "defaultPriority", WORST_PRIORITY)
-        filters = []
+        filters: list[FlawFilter] = []
         handlers: list[FlawHandler] = []
         for child in element.children:
             if child.tag == "FlawFilter":
-                filters.append(self.filter(child))
+                filters += self.filter(child)
             elif child.tag == "FlawHandler":
                 handlers += self.handler(child, kind, default)
             else:
@@ -121,16 +123,19 @@ class _Reading:
             handlers = [FlawHandler(STANDARD.get(kind, ""), priority=default)]
         return FlawManager(component, tuple(filters), tuple(handlers), order)
 
-    def filter(self, element: Element) -> FlawFilter:
+    def filter(self, element: Element) -> Iterator[FlawFilter]:
+        """The filter, unless it leaves out what no reactor plans anyway."""
         component = element.find("component")
         name = component.value if component else "FlawFilter"
-        if name not in FILTERS:
+        if name not in FILTERS and name not in WINDOW_FILTERS:
             self.complaints.append(UNKNOWN_FILTER.at((component or element).span, name=name, help=_help(name, FILTERS)))
         is_horizon = name in ("HorizonFilter", "HorizonVariableFilter")
         self.spare(element, _MATCH_NAMES | ({"policy"} if is_horizon else set()))
         for child in element.children:
             self.complaints.append(UNKNOWN_ELEMENT.at(child.span, name=child.tag))
-        return FlawFilter(name, _match(element), self.word(element, "policy", POLICIES))
+        policy = self.word(element, "policy", POLICIES)
+        if name not in WINDOW_FILTERS:
+            yield FlawFilter(name, _match(element), policy)
 
     def handler(self, element: Element, kind: int, default: float) -> Iterator[FlawHandler]:
         """The handler, unless it mends another kind of flaw."""

@@ -45,7 +45,10 @@ FILTERS = {
     "ParentMustBeInsertedFilter": FILTER_NOT_ASSIGNED,
     "goals": FILTER_GOALS,  # this and the next are T-REX's: each leaves out what it names
     "notGoals": FILTER_NOT_GOALS,
+    "NoGoals": FILTER_GOALS,  # T-REX 1's names for the same
+    "GoalsOnly": FILTER_NOT_GOALS,
 }
+WINDOW_FILTERS = ("DeliberationFilter",)  # T-REX 1's; a reactor here plans inside its window anyway
 HANDLERS = {  # the kind of flaw that each mends, and its code; the first of a kind is its default
     "StandardVariableHandler": (UNBOUND_VARIABLE, HANDLER_MIN),
     "Min": (UNBOUND_VARIABLE, HANDLER_MIN),
