@@ -32,6 +32,8 @@
 #   make vsix         the extension for Visual Studio Code (npm fetches its tools; what it makes loads nothing)
 #   make conformance  the conformance suite of NDDL
 #   make corpus       the public models, where CORPUS=directory holds checkouts of nasa/europa and fredpy/trex2-agent
+#   make trex-one     the small agents of T-REX 1 beside the traces that it left, where TREX1=directory holds a checkout of
+#                     trex-autonomy/trex
 #   make rules        the pages of docs/rules, from the tables beside the passes
 #   make docs         the site of docs/, in build/site; works offline
 #   make bench        missions per second, compiled and interpreted
@@ -53,7 +55,7 @@ TICKING := $(BIN)/python build_backend/ticking.py
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build engine lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study judge-study conflict-study controllability-proof study truths fault-conditions kills cases variants mutants agents second renames editor-proof vsix conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build engine lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study alarm-study judge-study conflict-study controllability-proof study truths fault-conditions kills cases variants mutants agents second renames editor-proof vsix conformance corpus trex-one rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -227,6 +229,9 @@ conformance: build
 
 corpus: build
 	$(BIN)/python -m tests.corpus '$(CORPUS)'
+
+trex-one: build
+	$(BIN)/python -m tests.trex_one '$(TREX1)'
 
 docs: setup
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'mkdocs-material>=9.5'
