@@ -67,7 +67,8 @@ def fly_recorded(
         raise DisagreementError(report)
     behaviour = universe_of(programs.programs).features(record, outcome.events)
     arguments = _arguments(programs) if agent.properties else {}
-    fates = property_fates(agent, arguments, record, outcome.last_tick, outcome.events, report.profiles)
+    is_cut = outcome.abort is None and outcome.last_tick < agent.final_tick
+    fates = property_fates(agent, arguments, record, outcome.last_tick, outcome.events, report.profiles, is_cut=is_cut)
     outcome = replace(outcome, breaches=breaches(report), behaviour=behaviour, properties=fates)
     return _relative(outcome, root), record
 

@@ -45,10 +45,13 @@ def property_fates(
     last_tick: int,
     events: Sequence[Event] = (),
     profiles: Sequence[ResourceProfile] = (),
+    *,
+    is_cut: bool = False,
 ) -> tuple[PropertyFate, ...]:
     """What became of each property; `arguments` names those of each predicate (`Class.predicate`).
 
-    What no reactor with a model owns or uses is in no record: of that the events tell what was published.
+    Where a flight `is_cut` off before the mission ends, what is to come later may come yet. What no reactor with a
+    model owns or uses is in no record: of that the events tell what was published.
     """
     histories: dict[str, list[_Held]] = {}
 
@@ -62,7 +65,7 @@ def property_fates(
         if one.level is not None:
             return _level_fate(one, one.level, profiles, agent.final_tick if one.by is None else one.by)
         then = history(one.then.timeline) if one.then else []
-        return _fate(one, history(one.pattern.timeline), then, agent, last_tick)
+        return _fate(one, history(one.pattern.timeline), then, agent, last_tick, is_cut)
 
     return tuple(fate(one) for one in agent.properties)
 
@@ -158,10 +161,16 @@ def _tokens_on(reactor: ReactorRecord, timeline: str) -> Iterator[TokenRecord]:
 
 
 def _fate(
-    one: PropertyConfiguration, held: list[_Held], then: list[_Held], agent: AgentConfiguration, last_tick: int
+    one: PropertyConfiguration,
+    held: list[_Held],
+    then: list[_Held],
+    agent: AgentConfiguration,
+    last_tick: int,
+    is_cut: bool,
 ) -> PropertyFate:
     """Whether a property was kept; `tick` is when it was violated."""
     first, last = one.since, agent.final_tick if one.by is None else one.by
+    is_due = last <= last_tick or not is_cut
     pattern = one.pattern
     match one.kind:
         case PropertyKind.REACHED:
@@ -171,6 +180,8 @@ def _fate(
                 if token.start >= first and token.end <= last_tick and _margin(pattern, token) >= 0.0
             ]
             best = min(ends, default=math.inf)
+            if best > last and not is_due:
+                return PropertyFate(one.name, True, None, math.inf)
             return PropertyFate(one.name, best <= last, None if best <= last else min(last, last_tick), last - best)
         case PropertyKind.LEVEL:
             raise AssertionError("levels are no tokens")
@@ -193,7 +204,7 @@ def _fate(
             assert one.then is not None
             begins = [token.start for token in then if token.start >= first and _margin(one.then, token) >= 0.0]
             stop = min(begins, default=math.inf)
-            if stop > last:
+            if stop > last and is_due:
                 return PropertyFate(one.name, False, min(last, last_tick), last - stop)
             told = _told_of(pattern, held)
             spans = [(token, _best(pattern, token)) for token in told if token.start < stop and token.end > first]

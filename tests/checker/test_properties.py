@@ -339,6 +339,30 @@ def gps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.once
+@pytest.mark.parametrize(
+    ("kind", "given", "kept"),
+    [
+        ("reached", {"by": 200}, True),
+        ("reached", {"by": 60}, False),
+        ("until", {"by": 200, "then": LATE_UP}, True),
+        ("until", {"by": 60, "then": LATE_UP}, False),
+    ],
+)
+def test_what_is_due_later_is_not_violated_where_a_flight_is_cut_off(
+    kind: str, given: dict[str, Any], kept: bool
+) -> None:
+    """`nddlc run --until 60` called a promise for tick 200 violated."""
+    pattern = down(depth=77.0) if kind == "reached" else TokenPattern("dive")
+    one = PropertyConfiguration("p", PropertyKind(kind), pattern, **given)
+    reactor = ReactorConfiguration("r", "m.nddl", internal=("dive", "radio"))
+    agent = AgentConfiguration("a", "", 300, (reactor,), properties=(one,))
+    record = MissionRecord((ReactorRecord("r", 70, (), (), (), TOKENS[:3]),))
+    (found,) = property_fates(agent, ARGUMENTS, record, 70, is_cut=True)
+    assert found.is_kept == kept
+    (ended,) = property_fates(agent, ARGUMENTS, record, 70)
+    assert not ended.is_kept
+
+
 def test_missions_fail_by_a_property_that_they_break(gps: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = gps.read_text()
     few = ["--missions", "6", "--seed", "3", "--flights", "0"]
