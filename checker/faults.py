@@ -10,8 +10,8 @@ from checker.batch.result import MissionResult
 from checker.buckets import Bucket, joined
 from checker.conditions.condition import Condition
 from checker.counterfactual.examples import examples_of
+from checker.counterfactual.missions import Missions
 from checker.counterfactual.ranking import CANCELLED, NO_CAUSES, Causes, RankedLine
-from checker.counterfactual.trials import Missions
 from checker.oracle import Verdict
 
 _Found = TypeVar("_Found")

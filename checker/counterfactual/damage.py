@@ -1,27 +1,47 @@
 """A mission flown with a change in; out: what happened, what it has lost though it passed, what it no longer does."""
 
 import math
+from collections.abc import Sequence
 
 from checker.batch.result import MissionResult
 from checker.coverage import left_out
 from checker.losses import GoalFate
+from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.events import heads_of, single_events
 
+_GIVEN_UP = (GoalFate.LATE, GoalFate.REJECTED)
 HEAVY = 10.0  # damage of a mission that passes without a goal
 _COLLAPSED = 1.5  # of each of two predicates that hardly hold
 _LONG = 10  # ticks that are no moment
 _STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
 
 
-def damage_of(result: MissionResult, is_cut: bool = False) -> float:
+def damage_of(result: MissionResult, is_cut: bool = False, unknown: frozenset[int] = frozenset()) -> float:
     """What a mission that passed has lost all the same: goals weigh most, then requests, then repairs.
 
     The more was lost, the less one more of it tells: many are usual in some models. Where a flight `is_cut` off before
-    the mission ends, open goals may be achieved yet.
+    the mission ends, open goals may be achieved yet. Goals by number that are `unknown` do not weigh.
     """
     losses = result.losses
-    goals = len(losses.goals) - losses.count(GoalFate.ACHIEVED) - is_cut * losses.count(GoalFate.OPEN)
+    kept = (GoalFate.ACHIEVED, GoalFate.OPEN) if is_cut else (GoalFate.ACHIEVED,)
+    goals = sum(one.fate not in kept and one.number not in unknown for one in losses.goals)
     return HEAVY * goals + math.log2(1.0 + losses.lost + losses.dropped + 0.5 * losses.repaired)
+
+
+def unknown_goals(failed: MissionResult, goals: Sequence[GoalConfiguration]) -> frozenset[int]:
+    """The optional goals of which a failed mission does not tell whether it would have lost them without its failure.
+
+    They had been given up before, or were not to begin before it was over.
+    """
+    if failed.outcome is None or failed.outcome.abort is None:
+        return frozenset()
+    last = failed.outcome.last_tick
+    given_up = {one.number for one in failed.losses.goals if one.fate in _GIVEN_UP and one.tick < last}
+    return frozenset(
+        number
+        for number, goal in enumerate(goals)
+        if not goal.mandatory and (number in given_up or (goal.start is not None and goal.start[0] > last))
+    )
 
 
 def voided_of(result: MissionResult, failed: MissionResult) -> float:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from checker.batch.result import MissionResult
-from checker.counterfactual.trials import Missions
+from checker.counterfactual.missions import Missions
 from checker.coverage import is_event, is_trouble
 
 _MOST_FAILED = 3

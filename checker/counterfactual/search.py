@@ -11,14 +11,15 @@ from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.counterfactual.candidates import candidates_of
-from checker.counterfactual.damage import HEAVY, damage_of, voided_of
+from checker.counterfactual.damage import HEAVY, damage_of, unknown_goals, voided_of
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.effort import Bounds, Stopwatch
 from checker.counterfactual.loose_ends import loose_ends
 from checker.counterfactual.mission_lines import mission_lines
+from checker.counterfactual.missions import Missions
 from checker.counterfactual.moments import with_durations
 from checker.counterfactual.ranking import Causes, Claim, RankedLine, rank
-from checker.counterfactual.trials import Missions, Trials, try_out
+from checker.counterfactual.trials import Trials, try_out
 from checker.counterfactual.usage import usage_of
 from checker.coverage import Universe
 from checker.culprit import is_of_values
@@ -75,8 +76,9 @@ class CauseSearch:
         if cause.change is None or cause.claim is Claim.EVADES or left <= 0.0 or self._bounds.flights == 0:
             return False
         result = _fly(self._world, cause.change, failed, left)
-        is_cut = self._world.agent.until is not None
-        return result.verdict is Verdict.PASS and damage_of(result, is_cut) + voided_of(result, failed) < HEAVY
+        agent = self._world.agent
+        damage = damage_of(result, agent.until is not None, unknown_goals(failed, agent.goals))
+        return result.verdict is Verdict.PASS and damage + voided_of(result, failed) < HEAVY
 
 
 def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]:
@@ -93,7 +95,7 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     """Try small changes on the first of the failed missions, see `try_out`."""
     outcome = missions.failed[0].outcome
     assert outcome is not None
-    missions = replace(missions, is_cut=world.agent.until is not None)
+    missions = replace(missions, is_cut=world.agent.until is not None, goals=world.agent.goals)
     sampled = {parameter.name for parameter in world.agent.parameters}
     sites = [site for site in sites_in(world.agent, world.overlay) if site.named not in sampled]
     graph = Dependence(world.programs, sites)

@@ -13,9 +13,10 @@ from checker.batch.interruption import InterruptedSearch
 from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.counterfactual.candidates import Candidate, Suspicion
-from checker.counterfactual.damage import HEAVY, collapsed_of, course_of, damage_of, is_farther, strayed_of, voided_of
+from checker.counterfactual.damage import HEAVY, collapsed_of, course_of, is_farther, strayed_of, voided_of
 from checker.counterfactual.effort import Bounds, Stopwatch
 from checker.counterfactual.follow_ups import alternatives, follow_ups
+from checker.counterfactual.missions import Missions
 from checker.counterfactual.numbers import between, is_doubling
 from checker.counterfactual.orders import is_order_turned
 from checker.counterfactual.smallness import cost_of, delay_of, first_edits, is_loosening, is_probe
@@ -128,30 +129,6 @@ class Trials:
     flights: int
     ended: TrialsEnd
     loose: tuple[Loose, ...] = ()
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Missions:
-    """Missions of one fault, of which the first is what trials are made on; and some that passed.
-
-    `exercised` are the rules and branches (by number, see `checker.coverage`) that only missions of the fault reached;
-    `usual` is what happened in all missions that passed, `passing` the share of these among all.
-    """
-
-    failed: Sequence[MissionResult]
-    passed: Sequence[MissionResult] = ()
-    exercised: frozenset[int] = frozenset()
-    usual: frozenset[int] = frozenset()
-    passing: float = 0.0
-    is_cut: bool = False  # before they end, as nothing is known of what came then
-
-    def is_patched(self, result: MissionResult) -> bool:
-        """Whether a mission that passes needed repairs, where those that passed before needed none."""
-        return result.losses.repaired > 0 and bool(self.passed) and not any(one.losses.repaired for one in self.passed)
-
-    def is_evasive(self, result: MissionResult) -> bool:
-        """Whether a mission lacks what happened in all missions that passed."""
-        return result.outcome is not None and not self.usual.issubset(result.outcome.behaviour)
 
 
 def try_out(
@@ -341,8 +318,9 @@ class _Trials:
 
     def read(self, candidate: Candidate, edit: SmallEdit, cost: float, result: MissionResult) -> LineTrial:
         """What a flight of the first failed mission tells that passes with an edit."""
-        lost = sum(of(result, self.missions.failed[0]) for of in (strayed_of, collapsed_of, voided_of))
-        damage = lost + damage_of(result, self.missions.is_cut) + _PATCHED * self.missions.is_patched(result)
+        failed = self.missions.failed[0]
+        lost = sum(of(result, failed) for of in (strayed_of, collapsed_of, voided_of))
+        damage = lost + self.missions.damage_of(result, failed) + _PATCHED * self.missions.is_patched(result)
         return LineTrial(candidate, edit, damage, cost, is_evasive=self.missions.is_evasive(result))
 
     def confirmed(self, trial: LineTrial, helping: Sequence[LineTrial], usage: Usage) -> LineTrial:
@@ -392,7 +370,7 @@ class _Trials:
                 if result.verdict is Verdict.PASS:
                     helped += 1
                     less = strayed_of(result, mission) + voided_of(result, mission)
-                    damage = max(damage, damage_of(result, self.missions.is_cut) + less)
+                    damage = max(damage, self.missions.damage_of(result, mission) + less)
                 else:
                     against = against or mission
         return replace(trial, damage=damage, helped=helped, missions=missions), against

@@ -13,10 +13,11 @@ from checker.counterfactual.candidates import candidates_of
 from checker.counterfactual.damage import damage_of
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.effort import Bounds
+from checker.counterfactual.missions import Missions
 from checker.counterfactual.ranking import Causes, Claim, rank
 from checker.counterfactual.rendering import causes_data, claim_text, effort_text
 from checker.counterfactual.search import Suspended, find_causes, sites_in
-from checker.counterfactual.trials import Missions, TrialsEnd
+from checker.counterfactual.trials import TrialsEnd
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.variant import load_over

@@ -8,9 +8,10 @@ import pytest
 
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.effort import Bounds
+from checker.counterfactual.missions import Missions
 from checker.counterfactual.ranking import rank
 from checker.counterfactual.rendering import effort_text
-from checker.counterfactual.trials import Missions, Trials, TrialsEnd, try_out
+from checker.counterfactual.trials import Trials, TrialsEnd, try_out
 from checker.counterfactual.usage import usage_of
 from checker.oracle import Verdict
 from tests.checker.test_trials import result, sites

@@ -12,8 +12,8 @@ from checker.causes import draws_behind, events_to_abort
 from checker.conditions.find import find_condition
 from checker.conditions.flights import Refly
 from checker.conditions.rendering import condition_text
+from checker.counterfactual.missions import Missions
 from checker.counterfactual.ranking import Causes, Claim, RankedLine
-from checker.counterfactual.trials import Missions
 from checker.culprit import culprit_of
 from checker.faults import faults_of
 from checker.mission import read_mission

@@ -11,15 +11,18 @@ from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.damage import HEAVY, collapsed_of, voided_of
 from checker.counterfactual.effort import Bounds
+from checker.counterfactual.missions import Missions
 from checker.counterfactual.smallness import cost_of, delay_of
-from checker.counterfactual.trials import LineTrial, Missions, Trials, Try, try_out
+from checker.counterfactual.trials import LineTrial, Trials, Try, try_out
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import usage_of
+from checker.losses import GoalEnd, GoalFate, Losses
 from checker.mutation.edits import EditSite, SmallEdit, sites_of
 from checker.mutation.kinds import EditKind
 from checker.mutation.variant import load_graph
 from checker.oracle import Judgement, Verdict
-from runtime.executive.outcome import Event, EventKind, Outcome, Phase, PropertyFate
+from runtime.executive.configuration import GoalConfiguration
+from runtime.executive.outcome import Abort, Event, EventKind, Outcome, Phase, PropertyFate, Reason, ReasonKind
 
 MODEL = """#include "TREX.nddl"
 int GRACE;
@@ -180,3 +183,32 @@ def test_what_was_tried_on_no_other_mission_comes_behind_what_helps_all() -> Non
     clean = LineTrial(candidate, large, 0.0, 3.0, helped=3, missions=3, is_untried=False)
     partly = LineTrial(candidate, small, 0.0, 2.0, helped=2, missions=3, is_untried=False)
     assert sorted([partly, untried, clean], key=lambda one: one.weight) == [clean, untried, partly]
+
+
+@pytest.mark.parametrize(
+    ("is_mandatory", "start", "given_up", "damage"),
+    [
+        (False, (800.0, 900.0), None, 0.0),  # it was not to begin before the failure
+        (False, (5.0, 900.0), None, HEAVY),
+        (True, (800.0, 900.0), None, HEAVY),
+        (False, (5.0, 900.0), 40, 0.0),  # it had been given up before
+        (False, (5.0, 900.0), 73, HEAVY),  # with the failure
+    ],
+)
+def test_a_goal_weighs_that_the_failed_mission_might_have_achieved(
+    is_mandatory: bool, start: tuple[float, float], given_up: int | None, damage: float
+) -> None:
+    """A goal for tick 800 that every mission gives up made all changes that mend a failure at 73 `evade`."""
+    goals = (
+        GoalConfiguration("job", "Do", start=(5.0, 40.0), mandatory=True),
+        GoalConfiguration("job", "Do", start=start, mandatory=is_mandatory),
+    )
+    abort = Abort("F1", 73, "r", ("job",), Reason(ReasonKind.GOES_ON), None, 2, 0)
+    then = GoalFate.OPEN if given_up is None else GoalFate.REJECTED
+    ends = (GoalEnd(0, GoalFate.OPEN, 73), GoalEnd(1, then, given_up or 73))
+    failed = replace(
+        result(1, Verdict.FAIL), outcome=Outcome(1, 73, 2000, abort, (), (), ()), losses=Losses(goals=ends)
+    )
+    ends = (GoalEnd(0, GoalFate.ACHIEVED, 60), GoalEnd(1, GoalFate.REJECTED, 98))
+    mended = replace(result(1, Verdict.PASS), losses=Losses(goals=ends))
+    assert Missions([failed], goals=goals).damage_of(mended, failed) == damage

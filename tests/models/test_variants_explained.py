@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from checker.counterfactual.effort import Bounds
+from checker.counterfactual.missions import Missions
 from checker.counterfactual.search import CauseSearch, Suspended
-from checker.counterfactual.trials import Missions
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.yardstick import open_flyer
