@@ -31,17 +31,16 @@ def damage_of(result: MissionResult, is_cut: bool = False, unknown: frozenset[in
 def unknown_goals(failed: MissionResult, goals: Sequence[GoalConfiguration]) -> frozenset[int]:
     """The optional goals of which a failed mission does not tell whether it would have lost them without its failure.
 
-    They had been given up before, or were not to begin before it was over.
+    They had been given up before, or were not to begin before it was over; the latter only beside mandatory ones, for a
+    mission of which nothing is demanded passes by doing nothing.
     """
     if failed.outcome is None or failed.outcome.abort is None:
         return frozenset()
     last = failed.outcome.last_tick
     given_up = {one.number for one in failed.losses.goals if one.fate in _GIVEN_UP and one.tick < last}
-    return frozenset(
-        number
-        for number, goal in enumerate(goals)
-        if not goal.mandatory and (number in given_up or (goal.start is not None and goal.start[0] > last))
-    )
+    optional = {number: goal for number, goal in enumerate(goals) if not goal.mandatory}
+    later = {number for number, goal in optional.items() if goal.start is not None and goal.start[0] > last}
+    return frozenset(optional.keys() & (given_up if len(optional) == len(goals) else given_up | later))
 
 
 def voided_of(result: MissionResult, failed: MissionResult) -> float:
