@@ -104,14 +104,32 @@ class _Window(PlanningScope):
         plan = self.bench.plan
         if plan.variable_role[v] in (ROLE_TOKEN, ROLE_LOCAL):
             t = int(plan.variable_owner[v])
-            is_undrawn = self.undrawn and self.undrawn.get(t) == self.bench.rows.key[t]
-            if is_undrawn or not self.admits_token(t):
+            if (self.undrawn and self._awaits_draw(t)) or not self.admits_token(t):
                 return False
             if self.observed and self.bench.object_of(t) in self.observed and self._is_free(v):
                 self.left_open.append(v)
                 return False
             return True
         return not self.is_present
+
+    def _awaits_draw(self, t: int) -> bool:
+        """Whether nothing is drawn yet for `t`, or, before it begins, for what one rule asked for together with it.
+
+        Lines tie their variables together: what is decided of one may be what another is never drawn.
+        """
+        bench, rows = self.bench, self.bench.rows
+        if self.undrawn.get(t) == rows.key[t]:
+            return True
+        if bench.lower(bench.start(t)) <= self.tick:
+            return False
+        root = self._root(t)
+        return any(rows.key[other] == key and self._root(other) == root for other, key in self.undrawn.items())
+
+    def _root(self, t: int) -> int:
+        """The token at which the chain of those that asked for `t` begins."""
+        while (parent := self.bench.parent(t)) >= 0:
+            t = parent
+        return t
 
     def _is_free(self, v: int) -> bool:
         """Whether no guard waits for a variable, and no constraint ties it to what is open: its values are alike."""

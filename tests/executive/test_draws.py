@@ -250,3 +250,37 @@ def test_what_a_command_asked_for_and_has_begun_goes_on_when_the_command_is_draw
             assert len(dips) == 2
             begun.add(int(dips[1].partition(" ")[0]))
     assert max(begun) > 19
+
+
+GAUGE = """
+float LOAD = [1.0 9.0];
+class Arm extends AgentTimeline { predicate Rest { } predicate Do { } Arm(Mode m) { super(m, "Rest"); } }
+class Gauge extends AgentTimeline {
+    predicate Off { }
+    predicate Read { int need; }
+    Gauge(Mode m) { super(m, "Off"); }
+}
+Arm::Do { equals(Gauge.Read one); int want; want == one.need; }
+Gauge::Read { float load; load == sampledParameter(LOAD); need == ceil(load); duration == need; }
+Arm arm = new Arm(Internal); Gauge gauge = new Gauge(Internal); close();
+"""
+
+
+def test_nothing_is_decided_of_a_command_whose_child_is_not_drawn_for_yet() -> None:
+    """`want` was decided to be 1 while nothing was drawn, and the command waited for a draw of that."""
+    goals = (
+        GoalConfiguration("arm", "Do", 5, False, (6.0, 40.0)),
+        GoalConfiguration("arm", "Do", 20, False, (21.0, 45.0)),
+    )
+    load = ParameterConfiguration("LOAD", 1.0, 9.0, mode="intra", update=3)
+    for seed in range(4):
+        ways = [
+            flown(
+                simulator("arm", GAUGE, "arm gauge"), until=50, goals=goals, parameters=(load,), seed=seed, compiles=one
+            )
+            for one in (True, False)
+        ]
+        assert all(each.report.holds for each in ways)
+        assert lines(ways[0].outcome) == lines(ways[1].outcome)
+        begun = [line.partition(" ")[0] for line in history(ways[0].outcome, "arm") if " Do" in line]
+        assert begun == ["6", "21"]
