@@ -21,6 +21,7 @@ _OTHERS = (
     "reactors in C++ are not here: let a simulator in NDDL (`DeliberativeReactor`) or a reactor in Python "
     "(`<PythonReactor name=... code=.../>`) own their timelines, or play a trace (`<LogPlayer file=.../>`)"
 )
+_CYCLE = "it is being read already"
 _RENAMED = {"lookAhead": "lookahead", "solverConfig": "plan_cfg"}
 
 
@@ -83,9 +84,6 @@ class _FirstAgentFile:
         if element.find("lookAhead") is None and final_tick is not None:
             attributes.append(Attribute("lookahead", final_tick.value, final_tick.span))
         return Element("EuropaReactor", tuple(attributes), element.children, element.span)
-
-
-_CYCLE = "it is being read already"
 
 
 def _renamed(element: Element) -> Iterator[Attribute]:

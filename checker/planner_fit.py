@@ -30,9 +30,10 @@ def unordered_resources(
         if any(manager.component == "ResourceThreatManager" for manager in managers):
             continue
         key = "model" if reactor.solver is None else "solver"
-        where = "under `solver`" if mission.text.source.name.endswith(".toml") else "as `plan_cfg`"
-        advice = f"name a file with a `ResourceThreatManager` {where} (docs/cookbook.md shows one)"
-        if reactor.solver is not None:
+        if reactor.solver is None:
+            where = "under `solver`" if mission.text.source.name.endswith(".toml") else "as `plan_cfg`"
+            advice = f"name a file with a `ResourceThreatManager` {where} (docs/cookbook.md shows one)"
+        else:
             table = '[[manager]] with `component = "ResourceThreatManager"`'
             entry = table if reactor.solver.endswith(".toml") else "`<ResourceThreatManager/>`"
             advice = f"add a {entry} to {reactor.solver}"

@@ -11,7 +11,7 @@ from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.counterfactual.candidates import candidates_of
-from checker.counterfactual.damage import HEAVY, damage_of, unknown_goals, voided_of
+from checker.counterfactual.damage import HEAVY, voided_of
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.effort import Bounds, Stopwatch
 from checker.counterfactual.loose_ends import loose_ends
@@ -76,8 +76,7 @@ class CauseSearch:
         if cause.change is None or cause.claim is Claim.EVADES or left <= 0.0 or self._bounds.flights == 0:
             return False
         result = _fly(self._world, cause.change, failed, left)
-        agent = self._world.agent
-        damage = damage_of(result, agent.until is not None, unknown_goals(failed, agent.goals))
+        damage = _as_flown(Missions([failed]), self._world.agent).damage_of(result, failed)
         return result.verdict is Verdict.PASS and damage + voided_of(result, failed) < HEAVY
 
 
@@ -91,11 +90,16 @@ def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]
     return with_durations(with_additions(list(found.values())))
 
 
+def _as_flown(missions: Missions, agent: AgentConfiguration) -> Missions:
+    """The missions with what their agent says of all of them."""
+    return replace(missions, is_cut=agent.until is not None, goals=agent.goals)
+
+
 def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     """Try small changes on the first of the failed missions, see `try_out`."""
     outcome = missions.failed[0].outcome
     assert outcome is not None
-    missions = replace(missions, is_cut=world.agent.until is not None, goals=world.agent.goals)
+    missions = _as_flown(missions, world.agent)
     sampled = {parameter.name for parameter in world.agent.parameters}
     sites = [site for site in sites_in(world.agent, world.overlay) if site.named not in sampled]
     graph = Dependence(world.programs, sites)

@@ -94,7 +94,7 @@ def _uses_of(bench: Bench, resource: str) -> Iterator[_ResourceUse]:
     tells once more, from its beginning.
     """
     uses = list(_recorded(bench, resource))
-    cuts = _cuts_of(bench) if any(tok is not None and tok.is_outdated for tok, _ in uses) else []
+    cuts = _cuts_of(bench) if any(tok is not None and tok.is_outdated for tok, _ in uses) else {}
     known: set[tuple[float, float]] = set()  # what was added at a time, by tokens that are cut off
     for tok, use in uses:
         if tok is not None and tok.is_outdated and use.end is None and use.start <= tok.record.tick:
@@ -109,7 +109,7 @@ def _uses_of(bench: Bench, resource: str) -> Iterator[_ResourceUse]:
             ends = (None, inf) if use.end is None else (min(use.end, until), min(use.latest, until))
             yield replace(use, start=min(use.start, until), end=ends[0], latest=ends[1])
         else:
-            since = max((tick for tick, key in cuts if tok.key > key), default=-inf)
+            since = max((tick for tick, key in cuts.items() if tok.key > key), default=-inf)
             if use.end is None and use.start < since and (use.start, use.amount) in known:
                 continue
             if use.end is not None:
@@ -117,13 +117,13 @@ def _uses_of(bench: Bench, resource: str) -> Iterator[_ResourceUse]:
             yield use
 
 
-def _cuts_of(bench: Bench) -> list[tuple[int, int]]:
+def _cuts_of(bench: Bench) -> dict[int, int]:
     """When repairs or recalls cut tokens off, with the newest token that was there; keys go up."""
     newest: dict[int, int] = {}
     for one in bench.tokens.records():
         if one.fate == "cut":
             newest[one.tick] = max(newest.get(one.tick, one.key), one.key)
-    return sorted(newest.items())
+    return newest
 
 
 def _recorded(bench: Bench, resource: str) -> Iterator[tuple[Tok | None, _ResourceUse]]:

@@ -122,14 +122,8 @@ class _Window(PlanningScope):
             return True
         if bench.lower(bench.start(t)) <= self.tick:
             return False
-        root = self._root(t)
-        return any(rows.key[other] == key and self._root(other) == root for other, key in self.undrawn.items())
-
-    def _root(self, t: int) -> int:
-        """The token at which the chain of those that asked for `t` begins."""
-        while (parent := self.bench.parent(t)) >= 0:
-            t = parent
-        return t
+        root = bench.root(t)
+        return any(rows.key[other] == key and bench.root(other) == root for other, key in self.undrawn.items())
 
     def _is_free(self, v: int) -> bool:
         """Whether no guard waits for a variable, and no constraint ties it to what is open: its values are alike."""

@@ -47,9 +47,7 @@ def _asked_for(bench: Workbench, t: int, token: int) -> bool:
 
 def _begin_first(bench: Workbench, goals: Goals, token: int, tick: int) -> bool:
     """Let what else was asked for and waits make way for a token that may begin now; it is planned again."""
-    own = token
-    while (parent := bench.parent(own)) >= 0:
-        own = parent
+    own = bench.root(token)
     for goal in goals.live():
         other = goal.token
         if other != own and bench.is_alive(other, goal.token_key) and bench.is_waiting(other, tick):

@@ -255,6 +255,12 @@ class PlanView:
         """The token whose rule asked for `t`; NONE where there is none."""
         return self.rows.parent[t]
 
+    def root(self, t: int) -> int:
+        """The token at which the chain of those whose rules asked for `t` begins."""
+        while (parent := self.parent(t)) >= 0:
+            t = parent
+        return t
+
     def stands_for(self, t: int) -> int:
         """The token of the plan that `t` is, or is merged into."""
         return self.rows.merged_into[t] if self.rows.status[t] == MERGED else t

@@ -15,6 +15,17 @@ import attrs
 from lsprotocol import types
 
 URI = "untitled:a"
+MODEL = """\
+enum Mode { Slow, Fast }
+class Gps extends Timeline { predicate Idle { } predicate Busy { int load; Mode mode; } }
+Gps gps = new Gps();
+int LIMIT = 5;
+Gps::Busy {
+  load <= LIMIT;
+  if (mode == Fast) { met_by(Idle before_it); before_it.duration >= 2; }
+}
+goal(gps.Busy one);
+"""
 URIS = [
     *(URI, URI, URI, "untitled:b", "", "x", "file:///\0", "file:///%00", "file:///%ff", "file://host/share/a.nddl"),
     *("http://example.org/a.nddl", "file:///dev/zero", "file:///proc/self/mem", "file:///", "untitled:mission.toml"),

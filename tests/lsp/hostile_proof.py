@@ -17,24 +17,13 @@ from statistics import median
 from typing import Any
 
 from tests.lsp.conftest import Client
-from tests.lsp.hostile import URI, URIS, Hostile, framed, message, written
+from tests.lsp.hostile import MODEL, URI, URIS, Hostile, framed, message, written
 
 _TURN = 40  # messages that are sent at once
 _PATIENCE = 60  # seconds for an answer
 _MOST = 100  # MB
 _GROWTH = 1.1  # of the last quarter over the second one
 _SHOWN = 20
-MODEL = """\
-enum Mode { Slow, Fast }
-class Gps extends Timeline { predicate Idle { } predicate Busy { int load; Mode mode; } }
-Gps gps = new Gps();
-int LIMIT = 5;
-Gps::Busy {
-  load <= LIMIT;
-  if (mode == Fast) { met_by(Idle before_it); before_it.duration >= 2; }
-}
-goal(gps.Busy one);
-"""
 
 
 class Attacked:

@@ -15,21 +15,11 @@ from typing import Any
 
 import pytest
 
+from tests.lsp.hostile import MODEL, URI
+
 ROOT = Path(__file__).resolve().parents[2]
 IS_ALL = os.environ.get("NDDLC_EDITOR") == "all"
 SCRIPTS = 100_000 if IS_ALL else 150
-MODEL = """\
-enum Mode { Slow, Fast }
-class Gps extends Timeline { predicate Idle { } predicate Busy { int load; Mode mode; } }
-Gps gps = new Gps();
-int LIMIT = 5;
-Gps::Busy {
-  load <= LIMIT;
-  if (mode == Fast) { met_by(Idle before_it); before_it.duration >= 2; }
-}
-goal(gps.Busy one);
-"""
-URI = "untitled:a"
 FRAGMENTS = [*'{}();,.:=[]"\r\n🛰 é/*', "//", "class C ", "predicate p", "Gps::Busy", "int x", "new ", "this", "before "]
 
 
