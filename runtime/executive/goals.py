@@ -152,22 +152,28 @@ class Goals:
             goal = OpenGoal(request.timeline, request.predicate, request.arguments, why, event)
             self.given_up[request.number] = goal
 
-    def _give_up(self, request: Request, kind: ReasonKind, tick: int, deadlock: Deadlock | None = None) -> None:
+    def _give_up(
+        self,
+        request: Request,
+        kind: ReasonKind,
+        tick: int,
+        deadlock: Deadlock | None = None,
+        conflict: Conflict | None = None,
+    ) -> None:
         """Tell that a goal of the plan will not be met, and what is known of why.
 
         What is dropped went in the last repair; what is rejected or late in the tick of a repair, because of it.
         """
         repair = self.repair
-        if repair is not None and kind is not ReasonKind.DROPPED and repair.tick != tick:
+        if conflict is not None or (repair is not None and kind is not ReasonKind.DROPPED and repair.tick != tick):
             repair = None
-        conflict: Conflict | None = None
         causes: tuple[int, ...] = (request.event,)
         why = Reason(kind)
         if repair is not None:
             conflict, causes = repair.conflict, (request.event, repair.event)
             deadlock, why = deadlock or repair.deadlock, Reason(kind, repair=repair.reason)
-            if conflict is not None:
-                causes += self.trace.draw_events(conflict.parameters)
+        if conflict is not None:
+            causes += self.trace.draw_events(conflict.parameters)
         deadlock = asked_in(deadlock, self._watched, self.trace)
         event = self.trace.record(
             EventKind.REJECT,
@@ -217,6 +223,18 @@ class Goals:
             elif goal.is_rejected and not is_rejected:
                 goal.is_rejected = False
                 self.given_up.pop(goal.request.number, None)
+
+    def reject(self, token: int, tick: int, conflict: Conflict | None) -> bool:
+        """Give up the goal of a token that has not begun, for good; whether there is such a goal."""
+        for goal in self.live():
+            if goal.token == token and self.bench.is_waiting(token, tick):
+                goal.is_closed = True
+                if goal.request.number not in self.to_recall and not goal.is_rejected:
+                    self._give_up(goal.request, ReasonKind.REJECTED, tick, conflict=conflict)
+                self.bench.recorder.cut()
+                self.is_changed = True
+                return self.bench.remove([token])
+        return False
 
     def next_expiry(self) -> float:
         """The first tick at which a goal that is rejected can begin no more, and does not come back."""

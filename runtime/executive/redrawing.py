@@ -1,14 +1,14 @@
 """Draw anew for what begins at another tick than it was planned for; in a simulator no draw rules out what waits.
 
 What holds for a token is drawn at the tick at which it begins (T-REX 3.4), so a draw of an earlier tick decides neither
-whether a command is taken in nor what else finds room behind it.
+whether a command is taken in nor what else finds room behind it. That of the first tick at which it can begin decides.
 """
 
 from runtime.executive.draws import Draws
 from runtime.executive.goals import Goals
 from runtime.executive.repair import hold_present, stand
+from runtime.executive.story import conflict_of
 from runtime.executive.timelines import NOTHING
-from runtime.executive.view import SPAN_CLOCK
 from runtime.executive.workbench import Workbench
 
 
@@ -20,7 +20,7 @@ def draw_anew(bench: Workbench, draws: Draws, goals: Goals, tick: int) -> bool:
             continue  # it has made way
         holds = _renew(bench, goals, token)
         if not holds and draws.is_reactive:
-            holds = _begin_first(bench, goals, token, tick) or _put_off(bench, draws, goals, token, tick)
+            holds = _begin_first(bench, goals, token, tick) or _settle(bench, draws, goals, token, tick)
         if not holds:
             break
     draws.begins = {}
@@ -55,14 +55,15 @@ def _begin_first(bench: Workbench, goals: Goals, token: int, tick: int) -> bool:
     return _renew(bench, goals, token)
 
 
-def _put_off(bench: Workbench, draws: Draws, goals: Goals, token: int, tick: int) -> bool:
-    """Let a token wait whose draw does not let it begin now; a goal whose time is over is left undecided."""
-    if bench.upper(bench.start(token)) <= tick:
-        return bench.is_goal(token) and bench.cancel(token)
+def _settle(bench: Workbench, draws: Draws, goals: Goals, token: int, tick: int) -> bool:
+    """Let wait what cannot begin now whatever is drawn; where only the draw is in the way, give up its goal."""
+    conflict = conflict_of(bench)
     draws.is_put_off = True
     holds = _renew(bench, goals, token)
     draws.is_put_off = False
-    return holds and bench.at_least(bench.start(token), tick + 1, SPAN_CLOCK, token)
+    if holds and bench.lower(bench.start(token)) > tick:
+        return True
+    return goals.reject(bench.root(token), tick, conflict)
 
 
 def leave_open(bench: Workbench, draws: Draws, goals: Goals, tick: int) -> bool:

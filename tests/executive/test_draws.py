@@ -153,19 +153,22 @@ def in_all_ways(length: str, goals: tuple[GoalConfiguration, ...], seed: int, up
 
 
 @pytest.mark.parametrize("is_busy", [False, True])
-def test_a_command_begins_at_the_first_tick_of_its_window_at_which_what_is_drawn_lets_it(is_busy: bool) -> None:
+def test_what_is_drawn_at_the_first_tick_at_which_a_command_can_begin_decides(is_busy: bool) -> None:
     goals = (done(0, 1, (1.0, 1.0)), done(2, 2, (3.0, 30.0), False))[not is_busy :]
     free = 11 if is_busy else 3
-    begun, given_up = 0, 0
+    begun = 0
     for seed in range(9):
         outcome = in_all_ways("10", goals, seed)
-        fitting = [tick for tick in range(free, 31) if sample(LOAD, seed, tick).value <= 0.4]
+        fits = sample(LOAD, seed, free).value <= 0.4
         found = [int(line.partition(" ")[0]) for line in history(outcome, "arm") if "n=2" in line]
-        assert found == fitting[:1]
+        assert found == [free] * fits
         assert lines(outcome, "relax") == []
-        assert [line.partition(" ")[0] for line in lines(outcome, "reject")] == ([] if fitting else ["30"])
-        begun, given_up = begun + (fitting[:1] > [free]), given_up + (not fitting)
-    assert begun and given_up >= is_busy
+        assert [line.partition(" ")[0] for line in lines(outcome, "reject")] == ([] if fits else [str(free)])
+        for event in outcome.events:
+            if event.kind is EventKind.REJECT:
+                assert event.conflict is not None and "LOAD" in event.conflict.parameters
+        begun += fits
+    assert 0 < begun < 9
 
 
 def test_a_planner_plans_with_the_draw_of_the_earliest_start() -> None:
@@ -185,6 +188,41 @@ def test_a_planner_plans_with_the_draw_of_the_earliest_start() -> None:
         )
         assert [line.partition(" ")[0] for line in lines(flight.outcome, "reject")] == ([] if fitting[-1] else ["0"])
     assert {True, False} == set(fitting)
+
+
+def test_a_command_is_rejected_where_what_it_asks_for_may_not_begin_as_drawn() -> None:
+    text = """
+    float LOAD = [0.0 1.0];
+    class Arm extends AgentTimeline { predicate Rest { } predicate Do { } Arm(Mode m) { super(m, "Rest"); } }
+    class Hand extends AgentTimeline { predicate Open { } predicate Grip { } Hand(Mode m) { super(m, "Open"); } }
+    Hand hand = new Hand(Internal);
+    Arm::Do { duration == 5; equals(hand.Grip g); }
+    Hand::Grip { float load; load == sampledParameter(LOAD); load <= 0.4; }
+    Arm arm = new Arm(Internal); close();
+    """
+    load = replace(LOAD, update=4)
+    seen = set()
+    for seed in range(9):
+        ways = [
+            flown(
+                simulator("arm", text, "arm hand"),
+                until=40,
+                goals=(GoalConfiguration("arm", "Do", 2, False, (6.0, 30.0)),),
+                parameters=(load,),
+                seed=seed,
+                compiles=compiles,
+            )
+            for compiles in (True, False)
+        ]
+        assert all(each.report.holds for each in ways)
+        outcome = ways[0].outcome
+        assert lines(outcome, "reject") == lines(ways[1].outcome, "reject")
+        assert history(outcome, "hand") == history(ways[1].outcome, "hand")
+        fits = sample(load, seed, 6).value <= 0.4
+        assert [line.partition(" ")[0] for line in lines(outcome, "reject")] == ([] if fits else ["6"])
+        assert [line.partition(" ")[0] for line in history(outcome, "arm")] == (["0", "6", "11"] if fits else ["0"])
+        seen.add(fits)
+    assert seen == {True, False}
 
 
 def test_what_is_drawn_for_a_command_that_waits_leaves_no_other_without_room() -> None:
