@@ -145,9 +145,9 @@ class Dispatch:
         What holds there by default is over when something else is asked for, also where that was asked for itself.
         """
         current = line.current
-        if current == NOTHING or not self.is_asked(current) or self.bench.predicate_of(current) == line.default:
+        if current == NOTHING or not self.is_asked(current):
             return NOTHING
-        return current
+        return NOTHING if self.bench.is_met_by(self.bench.predicate_of(current), line.default) else current
 
     def next_request(self, line: TimelineState) -> int:
         """The planned token that is to be asked for next; NOTHING while another is open, or where none is planned.

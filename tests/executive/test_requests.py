@@ -151,3 +151,21 @@ def test_one_command_for_two_is_the_answer_to_both_and_who_cannot_use_it_asks_an
     assert numbers <= set(begun.causes)
     assert lines(outcome, "recall")[0].startswith("4 recall two arm Act(n=1)")
     assert outcome.abort is None and open_goals(outcome) == []
+
+
+@pytest.mark.parametrize("named", ["any(Light.Off off); off.object == lamp;", "any(lamp.Off off);"])
+def test_what_was_asked_for_is_the_default_by_the_name_of_the_base_class_too(named: str) -> None:
+    # The task puts the lamp off itself: `Off` holds until something else is asked for, so the second need not wait.
+    lights = """
+    class Light extends AgentTimeline { predicate Off { } Light(Mode m) { super(m, "Off"); } }
+    class Lamp extends Light { predicate On { int n; } Lamp(Mode m) { super(m); } }
+    """
+    two = "Lamp left = new Lamp({0}); Lamp right = new Lamp({0}); close();"
+    rules = f"Task::Do {{ Lamp lamp; duration == 5; contains(lamp.On a); a.n == n; a.end == end; {named} a meets off; }}"
+    text = f"{TASK}{lights} Task task = new Task(Internal); {rules} {two.format('External')}"
+    world = simulator("world", f"{lights} {two.format('Internal')}", "left right")
+    goals = tuple(GoalConfiguration("task", "Do", 0, True, (at, 80.0), parameters=(("n", at),)) for at in (3, 10))
+    outcome = fly(planner("plan", text, "task", "left right"), world, until=90, goals=goals)
+    assert open_goals(outcome) == []
+    assert [line.partition(" ")[0] for line in history(outcome, "task") if "Do" in line] == ["3", "10"]
+    assert [line.partition(" ")[0] for line in lines(outcome, "request") if " On" in line] == ["2", "9"]
