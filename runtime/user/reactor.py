@@ -1,3 +1,4 @@
+# cython: binding=True
 """Reactors that users write in Python: subclass `Reactor`, and say in `tick` what holds and what is asked for."""
 
 from collections.abc import Mapping

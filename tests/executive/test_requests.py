@@ -161,7 +161,9 @@ def test_what_was_asked_for_is_the_default_by_the_name_of_the_base_class_too(nam
     class Lamp extends Light { predicate On { int n; } Lamp(Mode m) { super(m); } }
     """
     two = "Lamp left = new Lamp({0}); Lamp right = new Lamp({0}); close();"
-    rules = f"Task::Do {{ Lamp lamp; duration == 5; contains(lamp.On a); a.n == n; a.end == end; {named} a meets off; }}"
+    rules = (
+        f"Task::Do {{ Lamp lamp; duration == 5; contains(lamp.On a); a.n == n; a.end == end; {named} a meets off; }}"
+    )
     text = f"{TASK}{lights} Task task = new Task(Internal); {rules} {two.format('External')}"
     world = simulator("world", f"{lights} {two.format('Internal')}", "left right")
     goals = tuple(GoalConfiguration("task", "Do", 0, True, (at, 80.0), parameters=(("n", at),)) for at in (3, 10))
