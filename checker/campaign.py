@@ -169,9 +169,9 @@ class Campaign:
         Unless it `tests_conditions`: they come of the results alone then, and flights are made for causes only.
 
         Lines that may be the cause of a fault are tried within `bounds`, for all faults together no longer than
-        `seconds`, and conditions, one after the other, begun within as many. With a `focus` that is done only for the
-        fault of mission `focus`. `conditions` and `causes` are known already, by example, or all that was `sought`
-        before. `let` carries out each search, and ends it where a signal comes.
+        `seconds`, and conditions, one after the other, begun within as many, each half as long. With a `focus` that is
+        done only for the fault of mission `focus`. `conditions` and `causes` are known already, by example, or all that
+        was `sought` before. `let` carries out each search, and ends it where a signal comes.
         """
         run, agent, is_flying = self.run, self.models.agent, may_fly and ending is not Ending.SIGNAL
         points = {result.number: result.point for result in results}
@@ -199,7 +199,7 @@ class Campaign:
                 sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),
                 seeker=self._seeker(flyer, bounds, seconds) if is_flying and bounds is not None else None,
                 let=let,
-                has_time=Allowance(seconds, lambda: flyer.processor_seconds),
+                allowance=Allowance(seconds, seconds / 2, lambda: flyer.processor_seconds),
             )
             if findings.is_cut:
                 flyer.dismiss()  # it may be in the middle of a flight

@@ -1,6 +1,6 @@
 """All missions of a run in, what there is to say about it out: the rate, and each fault with its line and condition."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
@@ -11,8 +11,9 @@ from checker.broken_plans import blamed
 from checker.buckets import Bucket, group_failures, joined
 from checker.conditions.condition import Condition
 from checker.conditions.find import find_condition
-from checker.conditions.flights import Refly
+from checker.conditions.flights import HasTime, Refly, forever
 from checker.conditions.record import Conditions
+from checker.counterfactual.effort import Allowance
 from checker.counterfactual.ranking import CANCELLED, NO_CAUSES, Causes
 from checker.counterfactual.trials import TrialsEnd
 from checker.faults import MOST_SOUGHT, Interruptible, Seeker, Sought, faults_of, found_before, missions_of
@@ -150,14 +151,14 @@ def assess(
     text: ModelText | None = None,
     cases: tuple[FlownCase, ...] = (),
     let: Interruptible = uninterrupted,
-    has_time: Callable[[], bool] = lambda: True,
+    allowance: Allowance | None = None,
 ) -> Findings:
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
     With a `focus` it does so only for the fault that mission `focus` belongs to. So does `seeker`, which finds causes;
     without a focus, buckets of one cause become one fault. `conditions` and `causes` are known already, or all
     that was `sought` before; `text` is what z3 reads the meaning of lines from. `let` carries out each search, and ends
-    it where a signal comes. Flights are made for the condition of a fault only if it `has_time`.
+    it where a signal comes. Flights are made for conditions within an `allowance` of time.
     """
     by_number = sorted(results, key=lambda result: result.number)
     ordered = tuple(result for result in by_number if result.number > 0)
@@ -190,9 +191,10 @@ def assess(
             most_weight=sampling.most_weight,
             is_sequential=sampling.is_sequential,
         )
-        flier = refly if is_wanted and has_time() else None
+        flier = refly if is_wanted and (allowance is None or allowance()) else None
+        has_time = forever if allowance is None else allowance.begin()
         asked = None if focus is None or is_wanted else Fault(bucket, None, None)  # nobody asks for this one
-        fault = asked or let(partial(_fault, bucket, ordered, agent, seed, flier, conditions or {}, text))
+        fault = asked or let(partial(_fault, bucket, ordered, agent, seed, flier, conditions or {}, text, has_time))
         fault = Fault(bucket, None, None, is_cut=True) if fault is None else fault
         faults.append(replace(fault, interval=interval, causes=found))
     is_cut = any(one.is_cut or one.causes.ended is TrialsEnd.CANCELLED for one in faults)
@@ -239,13 +241,14 @@ def _fault(
     refly: Refly | None,
     known: Conditions,
     text: ModelText | None,
+    has_time: HasTime,
 ) -> Fault:
     example = next(result for result in results if result.number == bucket.example)
     conflict = blamed(example).conflict
     confirmation = confirm(conflict, text) if conflict is not None else None
     condition = known.get(bucket.example, bucket.example)
     if isinstance(condition, int):
-        condition = find_condition(bucket, results, agent, seed, refly)
+        condition = find_condition(bucket, results, agent, seed, refly, has_time)
     return Fault(bucket, condition, confirmation, is_tested=refly is not None and bool(agent.parameters))
 
 

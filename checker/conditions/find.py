@@ -8,7 +8,16 @@ from checker.buckets import Bucket
 from checker.conditions.condition import Condition, Conjunction, Extreme, Feature, Literal, Row, axis_feature, holds
 from checker.conditions.crossings import FINE, find_crossings, mend_crossings
 from checker.conditions.edges import find_edges
-from checker.conditions.flights import Ended, Flights, Refly, flight_budget, fresh_budget, label_of
+from checker.conditions.flights import (
+    Ended,
+    Flights,
+    HasTime,
+    Refly,
+    flight_budget,
+    forever,
+    fresh_budget,
+    label_of,
+)
 from checker.conditions.measure import Quality, measure, measured_on, parts_that_hold
 from checker.conditions.rules import induce, sample_cuts
 from checker.conditions.space import Space
@@ -29,8 +38,12 @@ def find_condition(
     agent: AgentConfiguration,
     batch_seed: int,
     refly: Refly | None,
+    has_time: HasTime = forever,
 ) -> Condition | None:
-    """The condition under which missions fail as those of `bucket`; None where nothing can be claimed."""
+    """The condition under which missions fail as those of `bucket`; None where nothing can be claimed.
+
+    Where time is over before the flights are, its edges are coarser, and it is tested on fewer fresh missions.
+    """
     example = next(result for result in results if result.number == bucket.example)
     space = Space(agent, results)
     if not space.parameters:
@@ -38,7 +51,7 @@ def find_condition(
     rows = _rows(space, results, bucket)
     if refly is None:
         return _from_samples(space, rows)
-    flights = Flights(bucket, example, space, refly, flight_budget(example))
+    flights = Flights(bucket, example, space, refly, flight_budget(example), has_time)
     fails = [space.point(row) for row, label in rows if label is Ended.FAILS]
     passes = [space.point(row) for row, label in rows if label is Ended.PASSES]
     own = space.row(example)
@@ -62,13 +75,13 @@ def find_condition(
     if not conjunctions:
         return None
     budget = fresh_budget(example)
-    measured = measure(conjunctions, space, bucket, batch_seed, refly, budget)
+    measured = measure(conjunctions, space, bucket, batch_seed, refly, budget, has_time)
     kept = conjunctions if measured is None else parts_that_hold(conjunctions, measured)
     if not kept:
         return None
     if kept != conjunctions:  # each part has to hold by itself
         conjunctions = kept
-        measured = measure(conjunctions, space, bucket, batch_seed, refly, budget)
+        measured = measure(conjunctions, space, bucket, batch_seed, refly, budget, has_time)
     found = claimed(conjunctions, measured, flights.count, space, _share_of(rows), has_flown=True)
     return None if found is None else replace(found, in_terms=_in_terms(found, example, space))
 

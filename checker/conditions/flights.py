@@ -11,9 +11,11 @@ from checker.oracle import Verdict
 from runtime.executive.configuration import AgentConfiguration
 
 Refly = Callable[[AgentConfiguration, int, int], MissionResult]  # agent, number, seed
+HasTime = Callable[[float], bool]  # whether less than this share of the time for a condition is over
 _EVENTS = 200_000  # of all flights of one bucket together, about
 _LEAST, _MOST = 60, 400
 _TESTED = 0.6  # of as many, for the test on fresh missions
+_EDGES = 0.6  # the share of its time in which edges are sought
 
 
 class Ended(Enum):
@@ -25,7 +27,12 @@ class Ended(Enum):
 
 
 class SpentError(Exception):
-    """The budget is spent, or the tool failed in a flight: nothing more is to be had."""
+    """The budget or its time is spent, or the tool failed in a flight: nothing more is to be had."""
+
+
+def forever(share: float) -> bool:
+    """Whether there is time, where it is not counted."""
+    return share > 0.0
 
 
 def flight_budget(example: MissionResult) -> int:
@@ -51,8 +58,17 @@ def label_of(result: MissionResult, bucket: Bucket) -> Ended | None:
 class Flights:
     """Flies the example at other points and remembers how that ended."""
 
-    def __init__(self, bucket: Bucket, example: MissionResult, space: Space, refly: Refly, budget: int) -> None:
+    def __init__(
+        self,
+        bucket: Bucket,
+        example: MissionResult,
+        space: Space,
+        refly: Refly,
+        budget: int,
+        has_time: HasTime = forever,
+    ) -> None:
         self.bucket, self.example, self.space, self.refly, self.budget = bucket, example, space, refly, budget
+        self.has_time = has_time
         self.count = 0
         self.known: dict[Point, Ended] = {}
 
@@ -60,7 +76,7 @@ class Flights:
         """How the example ends at `point`; raises SpentError."""
         found = self.known.get(point)
         if found is None:
-            if self.count >= self.budget:
+            if self.count >= self.budget or not self.has_time(_EDGES):
                 raise SpentError
             self.count += 1
             result = self.refly(self.space.agent_at(point), self.example.number, self.example.seed)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from checker.buckets import Bucket
 from checker.conditions.condition import Conjunction, Literal, Row, Share, holds
-from checker.conditions.flights import Ended, Refly, label_of
+from checker.conditions.flights import Ended, HasTime, Refly, forever, label_of
 from checker.conditions.space import Space
 from checker.sampling.seeds import mission_seed
 from checker.statistics import exact_interval
@@ -22,6 +22,7 @@ _SCAN, _LONGEST_SCAN = 4000, 40_000
 _NEAR = 0.25  # the share of each side that counts as near
 _ENOUGH_INSIDE = 60
 _SIDES = 2
+_LEAST_TURNS = 3  # fresh missions of each stratum, and four times as many as they come, whatever the time
 _TELLING, _LEAST_FAILING = 4, 0.5  # missions for which one part alone holds: how many tell, and how many have to fail
 
 
@@ -61,25 +62,31 @@ def measure(
     batch_seed: int,
     refly: Refly,
     flights: int,
+    has_time: HasTime = forever,
 ) -> Quality | None:
-    """Fly fresh missions; None where the tool failed in one, or none is to be had on a side."""
+    """Fly fresh missions, fewer where time is over; None where the tool failed in one, or a side has none."""
     if space.has_redrawn:
-        rows = _as_they_come(space, bucket, batch_seed, refly, flights)
+        rows = _as_they_come(space, bucket, batch_seed, refly, flights, has_time)
         return None if rows is None else measured_on(rows, conjunctions)
     strata = _strata(conjunctions, space, batch_seed)
+    chosen: list[tuple[int, _Stratum, tuple[tuple[int, int], Row]]] = []
     for is_inside in (True, False):
         near, far = strata[is_inside, True], strata[is_inside, False]
         each = flights // 4 if is_inside else flights - flights // 4
         quota = each // 2
         for stratum, most in ((near, quota), (far, each - min(quota, len(near.seeds)))):
-            for (number, seed), row in stratum.seeds[:most]:
-                label = label_of(refly(space.agent, number, seed), bucket)
-                if label is None:
-                    return None
-                stratum.flown += 1
-                stratum.failed += label is not Ended.PASSES
-                stratum.alike += label is Ended.FAILS
-                stratum.ends.append((row, label is not Ended.PASSES))
+            chosen += [(turn, stratum, one) for turn, one in enumerate(stratum.seeds[:most])]
+    # By turns: where time is over, all strata have been flown.
+    for turn, stratum, ((number, seed), row) in sorted(chosen, key=lambda one: one[0]):
+        if turn >= _LEAST_TURNS and not has_time(1.0):
+            break
+        label = label_of(refly(space.agent, number, seed), bucket)
+        if label is None:
+            return None
+        stratum.flown += 1
+        stratum.failed += label is not Ended.PASSES
+        stratum.alike += label is Ended.FAILS
+        stratum.ends.append((row, label is not Ended.PASSES))
     inside = [strata[True, True], strata[True, False]]
     outside = [strata[False, True], strata[False, False]]
     flown = sum(one.flown for one in strata.values())
@@ -114,11 +121,13 @@ def parts_that_hold(conjunctions: Sequence[Conjunction], measured: Quality) -> t
 
 
 def _as_they_come(
-    space: Space, bucket: Bucket, batch_seed: int, refly: Refly, flights: int
+    space: Space, bucket: Bucket, batch_seed: int, refly: Refly, flights: int, has_time: HasTime
 ) -> list[tuple[Row, Ended]] | None:
     """Fresh missions with their ends, whatever side they are on; None where the tool failed in one."""
     rows: list[tuple[Row, Ended]] = []
     for number in range(flights):
+        if number >= 4 * _LEAST_TURNS and not has_time(1.0):
+            break
         result = refly(space.agent, _FIRST + number, mission_seed(batch_seed, _FIRST + number))
         label, row = label_of(result, bucket), space.row(result)
         if label is None or row is None:

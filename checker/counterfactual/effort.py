@@ -45,17 +45,25 @@ class Bounds:
 
 
 class Allowance:
-    """Whether there still is processor time, or five times as much by the clock, since that was asked for first."""
+    """Whether there still is processor time, or five times as much by the clock, since that was asked for first.
 
-    def __init__(self, seconds: float, spent: Callable[[], float]) -> None:
-        self._seconds, self._spent = seconds, spent
+    Each search that is begun within `seconds` has `each` of its own.
+    """
+
+    def __init__(self, seconds: float, each: float, spent: Callable[[], float]) -> None:
+        self._seconds, self._each, self._spent = seconds, each, spent
         self._watch: Stopwatch | None = None
 
     def __call__(self) -> bool:
         if self._watch is None:
             self._watch = Stopwatch(self._spent)
             return True
-        return not (self._watch.is_over(self._seconds) or self._watch.is_starved(self._seconds))
+        return not self._watch.has_passed(self._seconds)
+
+    def begin(self) -> Callable[[float], bool]:
+        """Begin a search: a function that tells whether less than a share of its time is over."""
+        watch = Stopwatch(self._spent)
+        return lambda share: not watch.has_passed(share * self._each)
 
 
 class Stopwatch:
@@ -76,3 +84,7 @@ class Stopwatch:
     def is_starved(self, seconds: float) -> bool:
         """Whether it was not, in many times as long by the clock."""
         return time.monotonic() - self._clock >= PATIENCE * seconds
+
+    def has_passed(self, seconds: float) -> bool:
+        """Whether so much processor time was used, or was not to be had."""
+        return self.is_over(seconds) or self.is_starved(seconds)

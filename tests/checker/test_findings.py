@@ -116,6 +116,24 @@ def test_the_condition_is_found_by_flying_again(load: Load, is_in_terms: bool) -
     assert found.in_terms == (found.single if is_in_terms else ())
 
 
+@pytest.mark.parametrize("most", [0, 20, 60])
+def test_where_time_is_over_there_are_fewer_flights_and_the_condition_is_still_measured(most: int) -> None:
+    results, flown = fly(load_split), [0]
+    (bucket,) = group_failures(results)
+    refly = reflying(load_split)
+
+    def counted(given: AgentConfiguration, number: int, seed: int) -> MissionResult:
+        flown[0] += 1
+        return refly(given, number, seed)
+
+    found = find_condition(bucket, results, agent(), 7234, counted, lambda share: flown[0] < share * most)
+    whole = find_condition(bucket, results, agent(), 7234, refly)
+    assert flown[0] <= max(most, 0.6 * most + 12) + 1
+    assert whole is not None and whole.fresh > 100
+    assert found is not None and 12 <= found.fresh <= max(most, 12)
+    assert found.recall.interval[0] < whole.recall.interval[0]
+
+
 def test_without_flights_the_samples_must_do() -> None:
     results = fly(load_split)
     (bucket,) = group_failures(results)
