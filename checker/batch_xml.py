@@ -41,10 +41,11 @@ _RHYTHMS: dict[str, tuple[Mode, str]] = {
 
 @dataclass(frozen=True, slots=True)
 class BatchFile:
-    """What a batch file says; `seed` is that of the first batch sampler that has one."""
+    """What a batch file says; `seed` is that of the first batch sampler that has one, `spans` are of the parameters."""
 
     parameters: tuple[ParameterConfiguration, ...]
     seed: int | None
+    spans: tuple[Span, ...]
 
 
 @dataclass(slots=True)
@@ -134,7 +135,8 @@ def read_batch(source: Source) -> tuple[BatchFile | None, tuple[Diagnostic, ...]
         seeds += [] if seed is None else [int(seed)]
     if any(one.severity is Severity.ERROR for one in complaints):
         return None, tuple(complaints)
-    return BatchFile(tuple(one for one, _ in found), seeds[0] if seeds else None), tuple(complaints)
+    batch = BatchFile(tuple(one for one, _ in found), seeds[0] if seeds else None, tuple(node.span for node in nodes))
+    return batch, tuple(complaints)
 
 
 def _find(node: _Node, tag: str, closed: str = "") -> list[_Node]:

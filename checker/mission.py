@@ -146,6 +146,9 @@ def _with_batch(
         return agent, check
     written = {one.name for one in agent.parameters}
     added = tuple(one for one in batch.parameters if one.name not in written)
+    for one, span in zip(batch.parameters, batch.spans, strict=True):
+        if one in added:
+            top.text.elsewhere[("parameters", one.name)] = span
     if batch.seed is not None and not top.table("check", "[check]").has("seed"):
         check = replace(check, seed=batch.seed)
     return replace(agent, parameters=(*agent.parameters, *added)), check

@@ -33,6 +33,7 @@ class MissionText:
     def __init__(self, source: Source, places: dict[Path, Stretch]) -> None:
         self.source = source
         self.places = places
+        self.elsewhere: dict[Path, Span] = {}  # what stands in another file, such as a batch file in XML
         self.diagnostics: list[Diagnostic] = []
         self._anchor = Anchor(source)
 
@@ -42,8 +43,10 @@ class MissionText:
 
     def key_span(self, path: Path) -> Span:
         """The key at `path`, or that of the nearest table around it."""
-        while path and path not in self.places:
+        while path and path not in self.places and path not in self.elsewhere:
             path = path[:-1]
+        if path in self.elsewhere:
+            return self.elsewhere[path]
         return self.span(*self.places[path].key) if path else self.span(0, 0)
 
     def entry_span(self, path: Path) -> Span:

@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 DIGITS = 9  # to which intervals are rounded, so that the last bits of `lgamma` reach no report
 Interval = tuple[float, float]
+LEAST_CHANCE = 10.0**-DIGITS
 _PRIORS = ((0.5, 0.5), (0.5, 50.0))  # of the confidence sequence: for any rate, and for small ones
 
 
@@ -60,12 +61,15 @@ def _log_beta(a: float, b: float) -> float:
 
 
 def mcnemar(one_way: int, other_way: int) -> float:
-    """McNemar's exact test: how likely so uneven a count of flips is if either way is as likely (two-sided)."""
+    """McNemar's exact test: how likely so uneven a count of flips is if either way is as likely (two-sided).
+
+    Never 0: what is less likely than 1e-9 is given as that.
+    """
     flips, fewer = one_way + other_way, min(one_way, other_way)
     if not flips:
         return 1.0
     tail = 1.0 - incomplete_beta(fewer + 1, flips - fewer, 0.5)  # P(at most `fewer` of `flips` | 1/2)
-    return round(min(1.0, 2.0 * tail), DIGITS)
+    return max(round(min(1.0, 2.0 * tail), DIGITS), LEAST_CHANCE)
 
 
 def incomplete_beta(a: float, b: float, x: float) -> float:

@@ -15,6 +15,7 @@ from checker.rendering import failure_text
 from checker.report.sentences import missions, percent
 from checker.sampling.rendering import number
 from checker.sampling.sampler import RANDOM_POINT, MissionRole
+from checker.statistics import LEAST_CHANCE
 from nddl_lang.text.read import real_path
 from nddl_lang.text.values import json_text, json_value
 from nddlc.inputs import STORE, Unusable
@@ -116,7 +117,7 @@ def _text(found: Comparison, before: str, after: str, confidence: float) -> str:
         f"{missions(count)} in common: {before} failed {found.failed_before} ({percent(found.failed_before / count)}), "
         f"{after} failed {found.failed_after} ({percent(found.failed_after / count)})",
         f"  {worse} fail only in {after}, {len(found.flips) - worse} only in {before}; "
-        f"McNemar's exact test: p = {found.chance:.3g}",
+        f"McNemar's exact test: p {'<=' if found.chance <= LEAST_CHANCE else '='} {found.chance:.3g}",
         f"  {_change_text(found, confidence)}",
     ]
     changed = [

@@ -161,6 +161,8 @@ def control_lines(name: str, plan: PlanNetwork, answer: Answer, excerpts: Excerp
         lines = [f"{name}, plan of {plan.reactor}: whether it is controllable is not known"]
     else:
         said = "dynamically controllable" if cycle is None else "not dynamically controllable"
+        if cycle is None and plan.left_out:
+            said += " as far as distances between times go"
         lines = [f"{name}, plan of {plan.reactor}: {said}; {_static(answer.is_strong, answer.is_weak)}"]
     open_ones = [each for each in plan.durations if each.lower < each.upper]
     if open_ones or plan.endless:

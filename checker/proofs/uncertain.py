@@ -14,18 +14,15 @@ from typing import NamedTuple
 import z3
 
 from checker.controllability.network import ContingentLink, UncertainNetwork
-from checker.proofs.claims import Number
 from checker.proofs.dating import Dated
 from checker.proofs.demands import Demand
+from checker.proofs.distances import POINTS, DistanceReader
 from checker.proofs.intervals import Ranges
 from checker.proofs.operands import name_of
 from checker.proofs.solving import fraction
 from checker.proofs.structure import Structure
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.record import MissionRecord, Value
-
-_POINTS = (".start", ".end")
-_LENGTH = ".duration"
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,10 +144,11 @@ class _Builder:
         for demand in structure.demands:
             for each in demand.numbers:
                 name = name_of(each)
-                if name.startswith(f"{reactor}:") and name.endswith(_POINTS):
+                if name.startswith(f"{reactor}:") and name.endswith(POINTS):
                     self.points.setdefault(name, len(self.points))
         self.network = UncertainNetwork(len(self.points))
         self.left_out = 0
+        self.reactors = {start.partition(":")[0] for start, _, _ in structure.times}
 
     def build(self) -> PlanNetwork:
         """The edges of all demands on the reactor's times, and the links of what it asked for."""
@@ -168,12 +166,16 @@ class _Builder:
                 endless.append(name)
             else:
                 durations.append(taken)
-        for demand in self.structure.demands:
-            names = [name for each in demand.numbers if (name := name_of(each))]
-            own = [name for name in names if name.startswith(f"{self.reactor}:")]
-            if own and len(own) == len(names) and any(name.endswith((*_POINTS, _LENGTH)) for name in own):
-                self._demand(demand)
+        distances = DistanceReader(self.points, self._value, self.structure.observed)
+        for one in distances.read([demand for demand in self.structure.demands if self._is_own(demand)]):
+            self.network.between(one.a, one.b, one.lower, one.upper, one.demand)
+        self.left_out = distances.left_out
         return PlanNetwork(self.reactor, self.network, tuple(durations), self.left_out, tuple(endless))
+
+    def _is_own(self, demand: Demand) -> bool:
+        """Whether a demand speaks of no other reactor."""
+        owners = {name_of(each).partition(":")[0] for each in demand.numbers}
+        return not any(name in owners and name != self.reactor for name in self.reactors)
 
     def _flown(self, name: str) -> int:
         value = self.structure.values[name]
@@ -222,7 +224,7 @@ class _Builder:
         for flight in self.flights:
             token, other = self._alike(flight, variable), self._alike(flight, source)
             if token is not None and other is not None and (point == ".start" or other.is_known):
-                yield token.end - other[_POINTS.index(point)], token.is_known
+                yield token.end - other[POINTS.index(point)], token.is_known
 
     def _alike(self, flight: Flown, variable: str) -> Spell | None:
         """What another flight had of a request: the one of its arguments; where these are drawn, that in its place."""
@@ -238,65 +240,7 @@ class _Builder:
             return False
         return start < at < flown
 
-    def _demand(self, demand: Demand) -> None:
-        numbers = demand.numbers
-        match demand.name:
-            case "gap":
-                lower, upper = (None if each is None else each.as_long() for each in numbers[2:4])
-                if lower is not None and name_of(numbers[0]).removesuffix(_POINTS[0]) in self.structure.observed:
-                    lower = min(lower, 0)  # it filled the ticks that a request took, and need not have been there
-                self._between(self._point(numbers[0]), self._point(numbers[1]), lower, upper, demand)
-            case "temporalDistance":
-                length = self._value(numbers[1])
-                if length is not None:
-                    exact = int(length)
-                    self._between(self._point(numbers[0]), self._point(numbers[2]), exact, exact, demand)
-            case "eq" | "concurrent" if len(numbers) == 2:
-                self._compare(numbers[0], numbers[1], demand, both=True)
-            case "leq" | "precedes":
-                self._compare(numbers[0], numbers[1], demand, both=False)
-            case "lt" | "strictlyPrecedes":
-                self._compare(numbers[0], numbers[1], demand, both=False, least=1)
-            case _:
-                self.left_out += 1
-
-    def _compare(self, a: Number, b: Number, demand: Demand, *, both: bool, least: int = 0) -> None:
-        """`a + least <= b`, and the reverse if `both`."""
-        first, second = self._span_of(a), self._span_of(b)
-        one, other = self._value(a), self._value(b)
-        if first is not None and other is not None:
-            most = floor(other) - least
-            self._between(*first, ceil(other) if both else None, most, demand)
-        elif second is not None and one is not None:
-            self._between(*second, ceil(one) + least, floor(one) if both else None, demand)
-        elif (x := self._point(a)) is not None and (y := self._point(b)) is not None and 0 not in (x, y):
-            self._between(x, y, least, 0 if both else None, demand)
-        elif name_of(a).endswith(_LENGTH) or name_of(b).endswith(_LENGTH):
-            self.left_out += name_of(a).endswith(_LENGTH) != name_of(b).endswith(_LENGTH)
-
-    def _span_of(self, number: Number) -> tuple[int, int] | None:
-        """A duration as the distance of two points, a time as that from the beginning."""
-        name = name_of(number)
-        if name.endswith(_LENGTH):
-            ends = [self.points.get(name.removesuffix(_LENGTH) + each) for each in _POINTS]
-            return (ends[0], ends[1]) if ends[0] is not None and ends[1] is not None else None
-        point = self.points.get(name) if name else None
-        return None if point is None else (0, point)
-
-    def _point(self, number: Number) -> int | None:
-        name = name_of(number)
-        return self.points.get(name) if name else 0
-
-    def _value(self, number: Number) -> Fraction | None:
-        """A number, or the value of a constant of the model."""
-        name = name_of(number)
-        if not name:
-            return fraction(number)
-        if name.endswith((*_POINTS, _LENGTH)):
-            return None
+    def _value(self, name: str) -> Fraction | None:
+        """The value of a constant of the model, or of an argument that is the same for all values."""
         known = self.known.get(name)
         return None if known is None else fraction(known)
-
-    def _between(self, a: int | None, b: int | None, lower: int | None, upper: int | None, demand: Demand) -> None:
-        if a is not None and b is not None and a != b:
-            self.network.between(a, b, lower, upper, demand)

@@ -134,6 +134,18 @@ def test_a_mission_file_may_name_a_batch_file(tmp_path: Path) -> None:
     assert [(one.code.id, one.span.line) for one in found] == [("NDDL708", 4)]
 
 
+def test_a_parameter_that_no_model_samples_is_told_where_the_batch_file_has_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "b.xml").write_text(f"<Batch>\n{FIGURE}</Batch>\n")
+    (tmp_path / "m.nddl").write_text("")
+    text = '[mission]\nname = "m"\nfinal_tick = 9\nbatch = "b.xml"\n[[reactor]]\nname = "r"\nmodel = "m.nddl"\n'
+    (tmp_path / "m.toml").write_text(text)
+    assert run(["check", str(tmp_path / "m.toml"), "--dry-run"]) == 2
+    told = "".join(capsys.readouterr())
+    assert "NDDL714" in told and "b.xml:2:" in told and '<SampledParameter name="errorRateX"' in told
+
+
 def test_what_stands_beside_the_samplers_counts(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     """Attributes of a parameter, and a batch sampler for all; what has no effect is told."""
     text = """<Batch>

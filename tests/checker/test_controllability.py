@@ -228,21 +228,19 @@ class Task extends AgentTimeline {
 """
 
 
-@pytest.mark.parametrize(("most", "is_dynamic"), [(20, True), (19, False)])
-def test_ticks_that_a_request_takes_are_not_in_the_network(most: int, is_dynamic: bool, tmp_path: Path) -> None:
-    """`Still` stood between the runs while the second was asked for, and its one tick was counted; so was the end of
-    `Work` as chosen, though it is that of the second run."""
-    (tmp_path / "plan.nddl").write_text(
-        f'#include "TREX.nddl"\n{MOTORS}Task::Work {{ contains(Motor.Run one); one.kind == 1; contains(Motor.Run two);'
-        f" two.kind == 2; one before two; two.end == end; duration <= {most}; }}\n"
+def asked_of_two_runs(folder: Path, demand: str, constants: str = "") -> tuple[int, dict[str, Any]]:
+    """A task of two runs of 5 to 10 ticks, one after the other, under a further demand: exit code and the one plan."""
+    (folder / "plan.nddl").write_text(
+        f'#include "TREX.nddl"\n{constants}{MOTORS}Task::Work {{ contains(Motor.Run one); one.kind == 1;'
+        f" contains(Motor.Run two); two.kind == 2; one before two; two.end == end; {demand} }}\n"
         "Task task = new Task(Internal);\nMotor motor = new Motor(External);\nclose();\n"
     )
-    (tmp_path / "motor.nddl").write_text(
+    (folder / "motor.nddl").write_text(
         f'#include "TREX.nddl"\n{MOTORS}int LENGTH = [5 10];\n'
         "Motor::Run { int d; d == sampledParameter(LENGTH); duration == d; }\n"
         "Motor motor = new Motor(Internal);\nclose();\n"
     )
-    (tmp_path / "mission.toml").write_text("""
+    (folder / "mission.toml").write_text("""
 [mission]
 name = "motors"
 final_tick = 60
@@ -269,10 +267,45 @@ update = 1
 [check]
 missions = 20
 """)
-    found = CliRunner().invoke(command, [str(tmp_path / "mission.toml"), "--format", "json"], standalone_mode=False)
+    found = CliRunner().invoke(command, [str(folder / "mission.toml"), "--format", "json"], standalone_mode=False)
     assert found.exception is None, found.exception
     (plan,) = json.loads(found.output)
-    assert (found.return_value, plan["dynamic"], plan["strong"]) == (int(not is_dynamic), is_dynamic, is_dynamic)
+    return found.return_value, plan
+
+
+@pytest.mark.parametrize(("most", "is_dynamic"), [(20, True), (19, False)])
+def test_ticks_that_a_request_takes_are_not_in_the_network(most: int, is_dynamic: bool, tmp_path: Path) -> None:
+    """`Still` stood between the runs while the second was asked for, and its one tick was counted; so was the end of
+    `Work` as chosen, though it is that of the second run."""
+    code, plan = asked_of_two_runs(tmp_path, f"duration <= {most};")
+    assert (code, plan["dynamic"], plan["strong"]) == (int(not is_dynamic), is_dynamic, is_dynamic)
+
+
+@pytest.mark.parametrize(
+    ("demand", "constants"),
+    [
+        ("two.end <= one.end + {0};", ""),
+        ("two.end <= one.end + MOST;", "int MOST = {0};\n"),
+        ("int last; last == one.end + MOST; two.end <= last;", "int MOST = {0};\n"),
+        ("int last; last == HALF * 2 + one.end; last >= two.end;", "int HALF = {1};\n"),
+        ("two.end - MOST <= one.start + one.duration;", "int MOST = {0};\n"),
+    ],
+)
+@pytest.mark.parametrize("most", [9, 10, 14, 16])
+def test_a_limit_with_a_name_or_a_local_is_a_demand_like_one_with_a_number(
+    demand: str, constants: str, most: int, tmp_path: Path
+) -> None:
+    # The second run takes up to 10 from the end of the first on, which takes 5 to 10 itself.
+    code, plan = asked_of_two_runs(tmp_path, demand.format(most), constants.format(most, most // 2))
+    assert (code, plan["dynamic"], plan["strong"]) == (int(most < 10), most >= 10, most >= 15)
+    assert plan["left_out"] == 0
+
+
+def test_what_is_no_distance_is_counted(tmp_path: Path) -> None:
+    code, plan = asked_of_two_runs(tmp_path, "one.duration + two.duration <= MOST;", "int MOST = 21;\n")
+    assert code == 0 and plan["left_out"] == 1
+    found = CliRunner().invoke(command, [str(tmp_path / "mission.toml")], standalone_mode=False)
+    assert "dynamically controllable as far as distances between times go" in found.output
 
 
 def test_a_branch_that_the_flight_did_not_take_counts(tmp_path: Path) -> None:

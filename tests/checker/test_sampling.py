@@ -13,7 +13,7 @@ from checker.sampling.adaptive import EXPLORING, Adaptive
 from checker.sampling.sampler import MissionRole, SamplePoint, Setting, ShareAxis, Trial, axes_of, with_point
 from checker.sampling.seeds import mission_seed
 from checker.sensitivity import sensitivities, sensitivity
-from checker.statistics import confidence_sequence, exact_interval, mcnemar
+from checker.statistics import LEAST_CHANCE, confidence_sequence, exact_interval, mcnemar
 from checker.stopping import parse_rule
 from nddlc.samplers import SAMPLERS, find_sampler
 from runtime.executive.chance import sample
@@ -224,6 +224,7 @@ def test_mcnemar_is_the_binomial_test_of_scipy() -> None:
     for one, other in ((0, 0), (0, 1), (3, 11), (11, 3), (20, 20), (0, 30)):
         wanted = stats.binomtest(one, one + other).pvalue if one + other else 1.0
         assert mcnemar(one, other) == pytest.approx(wanted, abs=1e-8)
+    assert mcnemar(0, 55) == LEAST_CHANCE > 0.0
 
 
 @pytest.mark.parametrize("rate", [0.002, 0.05, 0.4])
