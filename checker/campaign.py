@@ -19,7 +19,6 @@ from checker.batch.result import MissionResult
 from checker.batch.store import RunStore
 from checker.batch.worker import Load, Task, fly_one
 from checker.broken_plans import broken_plan, usual_breaking
-from checker.buckets import Key, bucket_key
 from checker.conditions.record import Conditions
 from checker.contrast import Contrast, Trace, find_contrast, nearest_passing
 from checker.counterfactual.effort import Allowance, Bounds
@@ -31,10 +30,10 @@ from checker.faults import Interruptible, Sought
 from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
-from checker.oracle import Verdict, judge_losses
+from checker.oracle import HUNG, OUT_OF_TIME, Verdict, judge_losses
 from checker.pinned import overlay_of
 from checker.proofs.places import ModelText, text_of
-from checker.regression import FlownCase, RegressionCase
+from checker.regression import FlownCase, RegressionCase, worth_keeping
 from checker.report.timelines import Pair
 from checker.sampling.sampler import RANDOM_POINT, RandomSampler, Sampler, Setting, axes_of, with_point
 from checker.sampling.seeds import mission_seed
@@ -46,8 +45,8 @@ from runtime.executive.configuration import AgentConfiguration
 
 _MOST_STORIES = 8
 _MOST_PAIRS = 4
-_BY_THE_CLOCK = (Ending.SECONDS, Ending.SIGNAL)
-_MOST_ALIKE = 3  # failures of a bucket that are kept
+_BY_THE_CLOCK = (Ending.SECONDS, Ending.SIGNAL, Ending.STUCK)
+_MOST_STUCK = 4  # missions that take too long, where no other has ended
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,7 +142,7 @@ class Campaign:
             store.flush()
         flown = watch.flown(ended_by)
         if store is not None and keeps_failures:
-            store.keep_failures(run, _worth_keeping(flown))
+            store.keep_failures(run, worth_keeping(flown.results, flown.cases))
         return flown
 
     def assess(
@@ -276,20 +275,6 @@ class Campaign:
         ]
 
 
-def _worth_keeping(flown: Flown) -> list[MissionResult]:
-    """Of each bucket of failures the first ones, unless it has as many among the cases."""
-    cases = [one.result for one in flown.cases if one.result.verdict is Verdict.FAIL]
-    found: Counter[Key] = Counter(bucket_key(result) for result in cases)
-    chosen = []
-    for result in flown.results:
-        if result.verdict is Verdict.FAIL:
-            key = bucket_key(result)
-            found[key] += 1
-            if found[key] <= _MOST_ALIKE:
-                chosen.append(result)
-    return chosen
-
-
 class _Watch:
     """Takes the results of a run, stores them, and knows when there are enough.
 
@@ -311,6 +296,7 @@ class _Watch:
         self.results = {number: campaign.judged(result) for number, result in kept.items()}
         self.kept = sum(number > 0 for number in kept)
         self.counts: Counter[Verdict] = Counter()
+        self.timeouts = 0
         self.has_interval = True  # missions are plain random ones
         for result in self.results.values():
             self._count(result)
@@ -337,6 +323,7 @@ class _Watch:
         """Count a mission of the run; regression cases are none."""
         if result.number > 0:
             self.counts[result.verdict] += 1
+            self.timeouts += result.verdict is Verdict.ERROR and result.judgement.code in (OUT_OF_TIME, HUNG)
             self.has_interval = self.has_interval and is_random([result.point])
 
     def is_enough(self) -> bool:
@@ -352,7 +339,7 @@ class _Watch:
             self.failures_reached += following.verdict is Verdict.FAIL
             if self.enough.rule is not None:
                 self.shown = self.enough.rule.outcome(counted(self._first()), self.sampler.most_weight)
-        if most is not None and seconds >= most:
+        if (most is not None and seconds >= most) or self._is_stuck():
             return True
         return not self._wants_more() and len(self.schedule.flown_cases()) == len(self.schedule.cases)
 
@@ -361,6 +348,10 @@ class _Watch:
         failures, errors = counts[Verdict.FAIL], counts[Verdict.ERROR]
         flown = failures + errors + counts[Verdict.PASS]
         return Progress(self.planned, flown, self.kept, failures, errors, seconds, most, self.has_interval)
+
+    def _is_stuck(self) -> bool:
+        """Whether no mission of the run came to its end in time: the others would take as long."""
+        return self.timeouts >= _MOST_STUCK and self.timeouts == sum(self.counts.values())
 
     def _wants_more(self) -> bool:
         failures = self.enough.failures
@@ -376,7 +367,7 @@ class _Watch:
         if ended_by is not None:
             return self._flown(self._all(), Ending.SIGNAL, ended_by)
         if len(numbers) < self.planned:
-            return self._flown(self._first(), Ending.SECONDS)
+            return self._flown(self._first(), Ending.STUCK if self._is_stuck() else Ending.SECONDS)
         return self._flown(self._all(), Ending.COMPLETE)
 
     def _flown(self, results: tuple[MissionResult, ...], ending: Ending, ended_by: Signals | None = None) -> Flown:

@@ -38,6 +38,7 @@ class Ending(StrEnum):
     SECONDS = "seconds"  # the time that was given is over
     FAILURES = "failures"  # there are as many as were asked for
     DECIDED = "decided"  # the stopping rule has its answer
+    STUCK = "stuck"  # none of the first missions came to its end in time
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,6 +16,8 @@ _NO_RECORD = "F7"
 _BROKEN = "F11"
 PROPERTY = "P1"
 _LIMIT_CODES = {Limit.REJECTED: "L1", Limit.LATE: "L2", Limit.REPAIRS: "L3", Limit.UNDELIVERED: "L4"}
+OUT_OF_TIME = "TIME"  # of an ERROR: the mission took longer than it may
+HUNG = "HUNG"  # of an ERROR: it did not even say so
 USER_CODE = "USER"  # of an ERROR: a constraint that the project wrote in Python failed
 
 CODE_NAMES = {

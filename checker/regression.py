@@ -6,12 +6,14 @@ one as TOML beside the mission file: it goes into version control, and must pass
 """
 
 import tomllib
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from checker.batch.result import MissionResult
+from checker.buckets import Key, bucket_key
 from checker.conditions.space import fixed
 from checker.oracle import PROPERTY, Verdict
 from checker.sampling.sampler import RANDOM_POINT, SamplePoint, with_point
@@ -20,6 +22,7 @@ from nddl_lang.text.values import toml_value
 from runtime.executive.configuration import AgentConfiguration, PropertyKind
 
 _NAME_ENDS = ".regressions.toml"
+_MOST_ALIKE = 3  # failures of a bucket that are kept
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,3 +131,17 @@ def agent_of(case: RegressionCase, agent: AgentConfiguration) -> AgentConfigurat
             kept = tuple(one for one in agent.properties if one.kind is not PropertyKind.REACHED)
             agent = replace(agent, properties=kept)
     return agent if case.final_tick is None else replace(agent, final_tick=case.final_tick)
+
+
+def worth_keeping(results: Sequence[MissionResult], flown: Sequence[FlownCase]) -> list[MissionResult]:
+    """Of each bucket of failures the first ones, unless it has as many among the cases."""
+    cases = [one.result for one in flown if one.result.verdict is Verdict.FAIL]
+    found: Counter[Key] = Counter(bucket_key(result) for result in cases)
+    chosen = []
+    for result in results:
+        if result.verdict is Verdict.FAIL:
+            key = bucket_key(result)
+            found[key] += 1
+            if found[key] <= _MOST_ALIKE:
+                chosen.append(result)
+    return chosen

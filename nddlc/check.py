@@ -20,7 +20,7 @@ from checker.coverage import coverage_of
 from checker.excerpts import Excerpts
 from checker.findings import Findings
 from checker.mission import Mission, read_mission
-from checker.oracle import USER_CODE
+from checker.oracle import OUT_OF_TIME, USER_CODE
 from checker.pinned import pinned
 from checker.regression import RegressionCase, RegressionError, agent_of, read_cases, regressions_path
 from checker.report.coverage import coverage_text
@@ -306,6 +306,6 @@ def _report(
         click.echo(reports[style][1], nl=False)
     if findings.rate.exceeds:
         return _FINDINGS
-    if any(result.judgement.code != USER_CODE for result in findings.errors):
+    if any(result.judgement.code not in (USER_CODE, OUT_OF_TIME) for result in findings.errors):
         return _BUG
     return _UNUSABLE if findings.errors else _HOLDS

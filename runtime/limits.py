@@ -2,7 +2,7 @@
 
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -17,6 +17,45 @@ class LimitError(RuntimeError):
     """A limit of the engine itself was reached: no verdict about the model."""
 
     advice = "a rule may ask for ever more tokens, see `nddlc lint`; a limit of your own is `max_depth` of the reactor"
+
+
+class OutOfTimeError(LimitError):
+    """A mission has taken longer than it may, in the middle of a search of `planner`."""
+
+    def __init__(self, text: str, planner: object = None) -> None:
+        super().__init__(text)
+        self.planner = planner
+
+
+class _TimeLimit:
+    """How long the mission that is under way may take, by the clock of who says so; else without an end."""
+
+    def __init__(self) -> None:
+        self.seconds = self.end = float("inf")
+        self.clock: Callable[[], float] = float  # it stands at 0
+
+    def is_over(self) -> bool:
+        """Whether it has taken longer."""
+        return self.clock() > self.end
+
+    def check(self, planner: object) -> None:
+        """Raise OutOfTimeError where it has; `planner` is searching."""
+        if self.is_over():
+            raise OutOfTimeError(f"took longer than {self.seconds:g} s", planner)
+
+    @contextmanager
+    def lasting(self, seconds: float, clock: Callable[[], float] | None = None) -> Iterator[None]:
+        """Let what is inside take so long, by `clock` (None: that of before)."""
+        before = self.seconds, self.end, self.clock
+        self.clock = clock or self.clock
+        self.seconds, self.end = seconds, self.clock() + seconds
+        try:
+            yield
+        finally:
+            self.seconds, self.end, self.clock = before
+
+
+TIME_LIMIT = _TimeLimit()
 
 
 def half_of_the_machine() -> int:

@@ -17,11 +17,11 @@ from typing import Protocol
 
 import runtime.build_form
 from checker.batch.garbage import seldom_collected
-from checker.batch.process import SPARE, Worker, WorkerError, unloaded
+from checker.batch.process import GRACE, SPARE, Worker, WorkerError, unloaded
 from checker.batch.result import MissionResult
 from checker.batch.signals import FirstSignals
 from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result
-from checker.oracle import USER_CODE
+from checker.oracle import HUNG, USER_CODE
 from runtime.executive.configuration import AgentConfiguration
 from runtime.user.fault import UserCodeError
 
@@ -102,7 +102,7 @@ class _Pool:
                 elif (reason := worker.hung()) is not None:
                     self._lose(worker, reason, USER_CODE)
                 elif time.monotonic() > worker.deadline and (worker.owed or not worker.is_ready):
-                    self._lose(worker, f"took longer than {self.batch.time_limit:g} s")
+                    self._lose(worker, f"took longer than {self.batch.time_limit:g} s", HUNG)
         # One that came with the last result, too, is for whoever would fly more.
         return signal.Signals(os.read(signalled, 1)[0]) if wait([signalled], 0.0) else None
 
@@ -148,7 +148,7 @@ class _Pool:
                 worker.owed.popleft()
                 self.missing -= 1
                 self.supervisor.take(message)
-            worker.deadline = time.monotonic() + self.batch.time_limit
+            worker.deadline = time.monotonic() + self.batch.time_limit + GRACE
             if not worker.owed:
                 self._feed(worker)
         except (EOFError, OSError):

@@ -17,7 +17,7 @@ from checker.batch.processor import PATIENCE, processor_seconds
 from checker.batch.result import MissionResult
 from checker.batch.signals import ENDING
 from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result, reason_of, work
-from checker.oracle import USER_CODE
+from checker.oracle import HUNG, USER_CODE
 from runtime.executive.configuration import AgentConfiguration
 from runtime.limits import half_of_the_machine
 from runtime.user.black_box import new_box, signal_name
@@ -26,6 +26,7 @@ from runtime.user.fault import UserCodeError
 _SAFE_PATH = "PYTHONSAFEPATH"
 _IMPORTED = ("checker.batch.worker", "checker.models")  # what flies, once for all workers
 _LOOK = 0.25  # seconds from one look at a process to the next
+GRACE = 5.0  # seconds beyond its limit in which a mission may say where it was
 _START_LIMIT = 120.0  # seconds for a worker to load the models
 _LEAST_MEMORY = 1024  # MiB that a worker may take on the smallest machine
 
@@ -120,10 +121,10 @@ class Flyer:
             if message != READY:
                 return self._lost(task, *self._worker.fate())
         self._worker.give([task], limit)
-        reason = self._worker.await_words(limit, most_seconds)
+        reason = self._worker.await_words(limit + GRACE, most_seconds)
         if reason is not None:
             return self._lost(
-                task, reason or f"took longer than {min(limit, most_seconds):g} s", USER_CODE if reason else ""
+                task, reason or f"took longer than {min(limit, most_seconds):g} s", USER_CODE if reason else HUNG
             )
         result = self._heard()
         if isinstance(result, LastWords):
@@ -164,8 +165,8 @@ class Worker:
 
     def give(self, chunk: list[Task], time_limit: float) -> None:
         self.owed.extend(chunk)
-        self.deadline = time.monotonic() + time_limit
-        self.connection.send(chunk)
+        self.deadline = time.monotonic() + time_limit + GRACE
+        self.connection.send((chunk, time_limit))
 
     def hung(self) -> str | None:
         """Look whether a modeler's code holds the process for longer than it may: what to say of it then."""

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import time
 import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,11 +13,11 @@ import runtime.build_form
 from checker.batch.garbage import seldom_collected
 from checker.batch.result import MissionResult, condense, packed
 from checker.losses import Limit, losses_of
-from checker.oracle import USER_CODE, Judgement, Verdict, judge, judge_losses
+from checker.oracle import OUT_OF_TIME, USER_CODE, Judgement, Verdict, judge, judge_losses
 from checker.sampling.sampler import RANDOM_POINT, SamplePoint
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import Outcome
-from runtime.limits import LimitError, bounded
+from runtime.limits import TIME_LIMIT, LimitError, OutOfTimeError, bounded
 from runtime.user.black_box import HERE
 from runtime.user.fault import HELP, UserCodeError
 from runtime.user.limit import WATCH
@@ -95,10 +96,13 @@ def _serve(connection: Connection, load: Load, agent: AgentConfiguration) -> Non
             return
         connection.send(READY)
         with seldom_collected():
-            while (tasks := connection.recv()) is not None:
+            while (given := connection.recv()) is not None:
+                tasks, seconds = given
                 for task in tasks:
                     other = None if task.agent is None else (task.load or load)(task.agent)
-                    connection.send_bytes(packed(fly_one(other or fly, task)))
+                    with TIME_LIMIT.lasting(seconds, time.monotonic):
+                        result = fly_one(other or fly, task)
+                    connection.send_bytes(packed(result))
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return  # the parent is gone
 
@@ -118,6 +122,8 @@ def fly_one(fly: Fly, task: Task, *, keep_trace: bool = False) -> MissionResult:
         outcome = fly(task.seed)
     except UserCodeError as problem:
         return error_result(task, reason_of(problem), problem.detail, USER_CODE)
+    except OutOfTimeError as problem:
+        return error_result(task, str(problem), code=OUT_OF_TIME)
     except LimitError as problem:
         return error_result(task, str(problem))
     except MemoryError:

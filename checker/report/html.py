@@ -21,9 +21,9 @@ from checker.report.sentences import (
     case_lines,
     cut_line,
     decision,
+    errors_title,
     explained_by,
     missions,
-    origin_of_errors,
     percent,
     rate_line,
     repaired_line,
@@ -88,7 +88,7 @@ def _head(findings: Findings) -> list[str]:
     tiles = [(flown, "missions flown"), (str(rate.failures), "failed"), (percent(rate.observed), "failure rate")]
     tiles.append((percent(rate.limit), "accepted"))
     if findings.errors:
-        tiles.append((str(len(findings.errors)), f"errors {origin_of_errors(findings)}"))
+        tiles.append((str(len(findings.errors)), errors_title(findings)))
     further = (cut_line(findings), stop_line(findings), *case_lines(findings), sensitivity_line(findings))
     return [
         f'<span class="verdict {word}">{word}</span>',

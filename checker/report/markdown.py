@@ -10,10 +10,10 @@ from checker.report.sentences import (
     case_lines,
     cut_line,
     decision,
+    errors_title,
     explained_by,
     fault_title,
     headline,
-    origin_of_errors,
     percent,
     rate_line,
     repaired_line,
@@ -44,7 +44,7 @@ def markdown_report(findings: Findings, excerpts: Excerpts) -> str:
     if len(findings.faults) > _MOST_FAULTS:
         lines += ["", f"{len(findings.faults) - _MOST_FAULTS} more kinds of failure are in the JSON report."]
     if findings.errors:
-        lines += ["", f"### Errors {origin_of_errors(findings)}", ""]
+        lines += ["", f"### {errors_title(findings).capitalize()}", ""]
         for error in findings.errors[:_MOST_LINES]:
             lines.append(f"* mission {error.number} (seed {error.seed}): {_plain(failure_text(error.judgement))}")
     lines += ["", "### What it cost", "", *(f"* {_plain(line)}" for line in _costs(findings, excerpts))]

@@ -5,7 +5,7 @@ from collections import Counter
 from checker.counterfactual.trials import TrialsEnd
 from checker.findings import Ending, Findings, regressed
 from checker.losses import Limit
-from checker.oracle import CODE_NAMES, USER_CODE, Verdict
+from checker.oracle import CODE_NAMES, OUT_OF_TIME, USER_CODE, Verdict
 from checker.rate import Method, Rate
 from checker.regression import FlownCase
 from checker.rendering import failure_text
@@ -13,7 +13,12 @@ from checker.sampling.rendering import number
 from checker.statistics import Interval
 from nddl_lang.text.printable import counted
 
-_ENDINGS = {Ending.SECONDS: "time was over", Ending.FAILURES: "failures enough", Ending.DECIDED: "decided"}
+_ENDINGS = {
+    Ending.SECONDS: "time was over",
+    Ending.FAILURES: "failures enough",
+    Ending.DECIDED: "decided",
+    Ending.STUCK: "none came to its end in time",
+}
 _METHODS = {
     Method.EXACT: "exact {level} % interval",
     Method.SEQUENCE: "{level} % confidence sequence",
@@ -50,14 +55,23 @@ def headline(findings: Findings) -> str:
     elif findings.ending is not Ending.COMPLETE:
         flown += f" of {findings.planned} ({_ENDINGS[findings.ending]})"
     errors = len(findings.errors)
-    broken = f", {errors} not flown to the end because of an error {origin_of_errors(findings)}" if errors else ""
+    why = f"because of an error {origin}" if (origin := _origin_of_errors(findings)) else "in time"
+    broken = f", {errors} not flown to the end {why}" if errors else ""
     return f"{name}: {flown}, {rate.failures} failed{broken}"
 
 
-def origin_of_errors(findings: Findings) -> str:
-    """Whose error kept missions from being flown."""
-    is_ours = any(result.judgement.code != USER_CODE for result in findings.errors)
-    return "of the tool" if is_ours else "in a constraint of the project"
+def _origin_of_errors(findings: Findings) -> str:
+    """Whose error kept missions from being flown; empty where they took too long."""
+    codes = {result.judgement.code for result in findings.errors}
+    if codes == {OUT_OF_TIME}:
+        return ""
+    return "in a constraint of the project" if codes <= {USER_CODE, OUT_OF_TIME} else "of the tool"
+
+
+def errors_title(findings: Findings) -> str:
+    """What missions that were not flown to their end are called."""
+    origin = _origin_of_errors(findings)
+    return f"errors {origin}" if origin else "missions that took too long"
 
 
 def rate_line(rate: Rate) -> str:

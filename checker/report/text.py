@@ -5,22 +5,24 @@ from checker.counterfactual.rendering import cause_text
 from checker.excerpts import Excerpts
 from checker.explain import excerpt_lines
 from checker.findings import Fault, Findings
+from checker.oracle import OUT_OF_TIME
 from checker.rendering import confirmation_text, failure_text
 from checker.report.losses import damage_words, loss_lines
 from checker.report.sentences import (
     case_lines,
     cut_line,
     decision,
+    errors_title,
     explained_by,
     fault_title,
     headline,
-    origin_of_errors,
     rate_line,
     repaired_line,
     sensitivity_line,
     stop_line,
 )
 from checker.sampling.rendering import describe
+from nddl_lang.text.printable import counted
 from runtime.executive.outcome import SourcePlace
 
 _MOST_FAULTS = 5
@@ -66,11 +68,18 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
             lines.append(f"   z3 {confirmation_text(fault.confirmation, fault.condition)}")
         lines.append(f"   why: {explained_by(findings, bucket.example)}")
     if len(findings.faults) > _MOST_FAULTS:
-        lines += ["", f"{len(findings.faults) - _MOST_FAULTS} more kinds of failure are in the report"]
+        more = len(findings.faults) - _MOST_FAULTS
+        lines += ["", f"{counted(more, 'more kind')} of failure {'is' if more == 1 else 'are'} in the report"]
     if findings.errors:
-        lines += ["", f"errors {origin_of_errors(findings)}, counted nowhere: {len(findings.errors)}"]
+        lines += ["", f"{errors_title(findings)}, counted nowhere: {len(findings.errors)}"]
         for error in findings.errors[:_MOST_ERRORS]:
             lines.append(f"   mission {error.number} (seed {error.seed}): {failure_text(error.judgement)}")
+        if len(findings.errors) > _MOST_ERRORS:
+            lines.append(f"   and {len(findings.errors) - _MOST_ERRORS} more, see the report")
+        if any(error.judgement.code == OUT_OF_TIME for error in findings.errors):
+            lines.append(
+                "   help: with `max_steps` a reactor flies on after so many decisions a tick, and what fails is explained"
+            )
     return "\n".join(lines) + "\n"
 
 

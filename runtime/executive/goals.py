@@ -116,11 +116,7 @@ class Goals:
             if self.bench.is_started(goal.token, tick):
                 self._free(self.bench.stands_for(goal.token))
             else:
-                self.bench.recorder.cut()
-                seen = hold_present(self.bench, self.timelines)
-                self.bench.remove([goal.token])
-                stand(self.bench, self.timelines, seen)
-                self.is_changed = True
+                self._take_away([goal.token])
                 self.reopen()
 
     def _free(self, token: int) -> None:
@@ -231,10 +227,17 @@ class Goals:
                 goal.is_closed = True
                 if goal.request.number not in self.to_recall and not goal.is_rejected:
                     self._give_up(goal.request, ReasonKind.REJECTED, tick, conflict=conflict)
-                self.bench.recorder.cut()
-                self.is_changed = True
-                return self.bench.remove([token])
+                self._take_away([token])
+                return self.bench.is_consistent()
         return False
+
+    def _take_away(self, tokens: list[int]) -> None:
+        """Take tokens that have not begun out of the plan; what their rules asked for and has begun goes on."""
+        self.bench.recorder.cut()
+        seen = hold_present(self.bench, self.timelines)
+        self.bench.remove(tokens)
+        stand(self.bench, self.timelines, seen)
+        self.is_changed = True
 
     def next_expiry(self) -> float:
         """The first tick at which a goal that is rejected can begin no more, and does not come back."""
@@ -277,7 +280,7 @@ class Goals:
             if is_meant and bench.is_waiting(bench.stands_for(goal.token), tick):
                 goal.is_closed = True
                 self._drop(goal, ReasonKind.REJECTED, tick)
-                self.bench.remove([goal.token])
+                self._take_away([goal.token])
 
     def loosen(self) -> bool:
         """Free what runs of the bounds of those who asked for it: it is fact, what they asked is not (T-REX 1.9)."""
@@ -334,8 +337,7 @@ class Goals:
             if self.bench.is_alive(token, key) and self.bench.is_missed(token, tick):
                 late.append(token)
         if late:
-            self.bench.recorder.cut()
-            self.bench.remove(late)
+            self._take_away(late)
         if len(self.posted) > 64:
             self.posted = self.live()
         return found

@@ -25,7 +25,7 @@ from runtime.executive.story import conflict_of
 from runtime.executive.trace import Trace
 from runtime.executive.view import whole_bound
 from runtime.executive.workbench import Workbench
-from runtime.limits import LimitError
+from runtime.limits import LimitError, OutOfTimeError
 from runtime.plan.database import Environment, PlanDatabase
 from runtime.plan.tags import INFINITY
 from runtime.solver.configuration.configuration import Configuration
@@ -122,8 +122,22 @@ def _flown(
     agent = Agent(configuration, reactors, goals, seed, trace, every_tick, tells_on, clock)
     try:
         return agent.run(until), reactors
+    except OutOfTimeError as problem:
+        raise OutOfTimeError(f"{problem}: {_endless(agent.tick, problem.planner)}") from problem
     except LimitError as problem:
         raise LimitError(f"no end was found at tick {agent.tick}: {problem}{_most_planned(reactors)}") from problem
+
+
+def _endless(tick: int, planner: object) -> str:
+    """Who searches without an end, and what stands in the way most often."""
+    assert isinstance(planner, Planner)
+    span, count, failures = planner.most_blamed()
+    found = f"`{planner.bench.name}` found no end of its search at tick {tick}"
+    if span is None:
+        return found
+    line = " ".join(span.text.split())
+    often = f"`{line}` ({span.source.name}:{span.line}) stands in the way in {count} of its first {failures} failures"
+    return f"{found}; {often}"
 
 
 def _most_planned(reactors: list[TeleoReactor]) -> str:

@@ -8,6 +8,7 @@ from runtime.plan.store.rows cimport Rows
 from runtime.solver.flaws.filters cimport PlanningScope
 from runtime.solver.search cimport Solver
 
+cdef double _EXPLAINING
 cdef long long EXHAUSTED, FLAG_REJECTABLE, INACTIVE, LISTS, LIST_THREAT, _DEEPEST, _MOST_CHANGES, _MOST_EXPLAINED
 cdef long long _MOST_STEPS, _NEVER, _NO_LIMIT, PLAN, ROLE_LOCAL, ROLE_TOKEN, SPAN_CLOCK
 

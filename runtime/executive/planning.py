@@ -3,11 +3,12 @@
 from collections.abc import Callable
 from dataclasses import replace
 
+from nddl_lang.text.source import Span
 from runtime.executive.outcome import Conflict, Deadlock, Reason, ReasonKind
 from runtime.executive.story import SearchLog, conflict_of
 from runtime.executive.view import SPAN_CLOCK
 from runtime.executive.workbench import Workbench
-from runtime.limits import LimitError
+from runtime.limits import TIME_LIMIT, LimitError
 from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, LIST_THREAT, LISTS, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.configuration.configuration import Configuration, FlawFilter, Match, default_configuration
 from runtime.solver.flaws.filters import PlanningScope
@@ -24,6 +25,7 @@ _TIMES = (
     *[Match(class_name=owner, variable="time") for owner in ("Resource", "Reservoir")],
 )
 _MOST_EXPLAINED = 2_000  # decisions of a search that is repeated to find out why it failed
+_EXPLAINING = 2.0  # seconds for one that had no end
 
 # How an episode of planning stands: a decision was made, nothing is left to do, there is no plan, or what ran out.
 EPISODE_MOVED, EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, _EPISODE_OUT_OF_STEPS = range(5)
@@ -186,6 +188,7 @@ class Planner:
             return EPISODE_DONE
         self._begin(tick, end)
         outcome = self.solver.step()
+        TIME_LIMIT.check(self)
         if outcome == PLAN and self.window.left_open and self.window.is_any_bound():
             self.pause()
             return EPISODE_MOVED
@@ -244,7 +247,8 @@ class Planner:
         steps = _MOST_STEPS if self.max_steps is None else self.max_steps
         depth = _MOST_STEPS if self.max_depth is None else self.max_depth
         made = solver.steps + solver.failures
-        outcome = solver.solve(steps, depth)
+        outcome = solver.solve(steps, depth, TIME_LIMIT.is_over)
+        TIME_LIMIT.check(self)
         solver.max_steps = solver.max_depth = _NO_LIMIT
         self.resolved = _NEVER
         is_deep = solver.depth > depth
@@ -270,7 +274,7 @@ class Planner:
         log = SearchLog(self.bench, solver)
         solver.failure_log = log.log
         solver.refresh()
-        solver.solve(_MOST_EXPLAINED, _MOST_EXPLAINED)
+        solver.solve(_MOST_EXPLAINED, _MOST_EXPLAINED, TIME_LIMIT.is_over)
         solver.undo_all()
         solver.failure_log = None
         solver.max_steps = solver.max_depth = _NO_LIMIT
@@ -289,7 +293,14 @@ class Planner:
             if found is not None:
                 self.rejections[token] = found
         self.solver.refresh()
-        self.solver.solve(_NO_LIMIT, _NO_LIMIT)
+        self.solver.solve(_NO_LIMIT, _NO_LIMIT, TIME_LIMIT.is_over)
+        TIME_LIMIT.check(self)
+
+    def most_blamed(self) -> tuple[Span | None, int, int]:
+        """The line that stands in the way most often in the first decisions of the window, and in how many of them."""
+        self.solver.undo_all()
+        with TIME_LIMIT.lasting(_EXPLAINING):
+            return self._logged().most_blamed()
 
     def reason(self) -> tuple[Reason, Conflict | None]:
         """Why the search cannot go on: the first token that must hold and cannot, and what stands against it."""

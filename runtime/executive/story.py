@@ -244,6 +244,13 @@ class SearchLog:
         """Why the search ended without a plan; None if it did not."""
         return None if self.log.end is None else self._deadlock(self.log.end)
 
+    def most_blamed(self) -> tuple[Span | None, int, int]:
+        """The line that most of the failures name, None where none does; how many do, and how many there were."""
+        if not self.log.blamed:
+            return None, 0, self.log.count
+        (span, count), *_ = self.log.blamed.most_common(1)
+        return span, count, self.log.count
+
     def rejection(self, t: int) -> Deadlock | None:
         """Why the search rejected token `t`; None if it did not."""
         failed = self.log.rejections.get(self.reader.token(t))

@@ -243,13 +243,22 @@ class Workbench(PlanView):
 
     def renew(self, t: int) -> bool:
         """Let the rules of a planned token fire anew, in its place on its timeline."""
-        o, before = self.object_of(t), NONE
-        if self.rows.link_head[LISTS * t + LIST_ORDER] >= 0:
-            before = int(self.rows.link_before[LISTS * t + LIST_ORDER])
-        else:
-            o = NONE
-        holds = self.cancel(t) and self.activate(t)
-        return holds and (o < 0 or self.place_after(o, t, before))
+        o, at = self.object_of(t), LISTS * t + LIST_ORDER
+        is_placed = self.rows.link_head[at] >= 0
+        earlier = []
+        before = int(self.rows.link_before[at]) if is_placed else NONE
+        while before >= 0:
+            earlier.append((before, self.key(before)))
+            before = int(self.rows.link_before[LISTS * before + LIST_ORDER])
+        if not (self.cancel(t) and self.activate(t)):
+            return False
+        if not is_placed:
+            return True
+        # What its rules had asked for in front of it is gone with them.
+        for other, key in earlier:
+            if self.is_alive(other, key) and self.rows.link_head[LISTS * other + LIST_ORDER] >= 0:
+                return self.place_after(o, t, other)
+        return self.place_after(o, t, NONE)
 
     def is_kept(self, t: int) -> bool:
         """Whether the token is over and in the plan without its rules, for others to look back at."""

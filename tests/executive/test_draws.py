@@ -322,3 +322,43 @@ def test_nothing_is_decided_of_a_command_whose_child_is_not_drawn_for_yet() -> N
         assert lines(ways[0].outcome) == lines(ways[1].outcome)
         begun = [line.partition(" ")[0] for line in history(ways[0].outcome, "arm") if " Do" in line]
         assert begun == ["6", "21"]
+
+
+def test_a_command_that_is_drawn_for_anew_is_placed_behind_what_is_left_of_its_timeline() -> None:
+    # Its rule asks for what comes in front of it, which goes when it is drawn for anew: the sequence became a ring.
+    text = """
+    float LOAD = [0.0 1.0];
+    class Arm extends AgentTimeline {
+        predicate Rest { }
+        predicate Ready { }
+        predicate Do { float load; }
+        Arm(Mode m) { super(m, "Rest"); }
+    }
+    class Sky extends AgentTimeline { predicate Dull { } Sky(Mode m) { super(m, "Dull"); } }
+    Sky sky = new Sky(Internal);
+    Sky::Dull { duration == 4; if (start <= AGENT_CLOCK) { meets(object.Dull next); } }
+    Arm::Do { load == sampledParameter(LOAD); met_by(object.Ready r); starts_during(Sky.Dull over); duration == 3; }
+    Arm::Ready { float more; more == sampledParameter(LOAD); duration == ceil(more * 4.0) + 1; }
+    Arm arm = new Arm(Internal); close();
+    """
+    goals = tuple(GoalConfiguration("arm", "Do", at, False, (at + 1.0, at + 9.0)) for at in (2, 5, 9, 30, 31))
+    begun, given_up = 0, 0
+    for seed in range(6):
+        for update in (1, 2, 5):
+            ways = [
+                flown(
+                    simulator("arm", text, "arm sky"),
+                    until=100,
+                    goals=goals,
+                    parameters=(replace(LOAD, update=update),),
+                    seed=seed,
+                    compiles=compiles,
+                    every_tick=every,
+                )
+                for compiles, every in ((True, False), (False, True))
+            ]
+            assert all(each.report.holds for each in ways)
+            assert history(ways[0].outcome, "arm") == history(ways[1].outcome, "arm")
+            begun += len([line for line in history(ways[0].outcome, "arm") if "Do(" in line])
+            given_up += len(lines(ways[0].outcome, "reject"))
+    assert begun and given_up

@@ -4,8 +4,10 @@ For explanations only: each failure is explained and minimised, which costs far 
 `_MOST` failures the log stays as it is; of what the search had pruned, `_MOST_PRUNED` are tried.
 """
 
+from collections import Counter
 from collections.abc import Callable
 
+from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import FLAG_DECISION
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.minimisation.minimise import minimise
@@ -45,6 +47,7 @@ class FailureLog:
         self.stack = stack
         self._reader = reader or self._script_reader
         self.count = self.pruned = 0
+        self.blamed: Counter[Span] = Counter()  # the lines that failures named, how many
         self.attempts: dict[int, list[Attempt]] = {}
         self.rejections: dict[str, FailedFlaw] = {}
         self.end: FailedFlaw | None = None
@@ -60,7 +63,9 @@ class FailureLog:
         if self.count < _MOST:
             self.count += 1
             reader = self._reader()
-            self._add(d, self._attempt(self._resolver(d, reader), reader))
+            attempt = self._attempt(self._resolver(d, reader), reader)
+            self.blamed.update({cause.span for cause in attempt.causes if cause.span is not None})
+            self._add(d, attempt)
 
     def note_rejection(self, d: int) -> None:
         """Decision `d` is in force: note it if it has rejected a token."""

@@ -1,0 +1,58 @@
+"""A search without an end costs one mission its time, says where it was, and does not cost the whole batch."""
+
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+from nddlc.main import run
+
+pytestmark = pytest.mark.once
+
+HOLES = 10
+BIRDS = "abcdefghijk"
+MISSION = """
+[mission]
+name = "endless"
+final_tick = 60
+[[reactor]]
+name = "planner"
+model = "planner.nddl"
+lookahead = 60
+internal = ["job"]
+[[goal]]
+timeline = "job"
+predicate = "Fill"
+start = [5, 20]
+mandatory = true
+[check]
+missions = 40
+time_limit = 1
+"""
+
+
+def test_a_batch_ends_where_no_mission_does_and_names_what_stands_in_the_way(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Eleven birds and ten holes, no two in one: whoever tries one after the other tries for days."""
+    bounds = [f"1 <= {bird}; {bird} <= {HOLES};" for bird in BIRDS]
+    rule = " ".join([*bounds, *(f"{one} != {other};" for one, other in combinations(BIRDS, 2))])
+    (tmp_path / "planner.nddl").write_text(
+        '#include "TREX.nddl"\nclass Job extends AgentTimeline { predicate Free { } predicate Fill { '
+        + " ".join(f"int {bird};" for bird in BIRDS)
+        + ' } Job(Mode m) { super(m, "Free"); } }\n'
+        + f"Job::Fill {{ {rule} }}\nJob job = new Job(Internal);\nclose();\n"
+    )
+    (tmp_path / "mission.toml").write_text(MISSION)
+    monkeypatch.chdir(tmp_path)
+    assert run(["check", "--workers", "1"]) == 2
+    told = capsys.readouterr().out
+    assert "4 missions of 40 (none came to its end in time), 0 failed, 4 not flown to the end in time" in told
+    assert "missions that took too long, counted nowhere: 4" in told and "and 1 more, see the report" in told
+    assert "took longer than 1 s: `planner` found no end of its search at tick 0; `" in told
+    assert "!= " in told and "(planner.nddl:3) stands in the way in " in told
+    assert "help: with `max_steps`" in told
+    limit = MISSION.replace('internal = ["job"]', 'internal = ["job"]\nmax_steps = 300')
+    (tmp_path / "mission.toml").write_text(limit)
+    assert run(["check", "--workers", "1", "--missions", "2", "--flights", "0"]) == 1
+    assert "F10" in capsys.readouterr().out
