@@ -78,7 +78,7 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
             lines.append(f"   and {len(findings.errors) - _MOST_ERRORS} more, see the report")
         if any(error.judgement.code == OUT_OF_TIME for error in findings.errors):
             lines.append(
-                "   help: with `max_steps` a reactor flies on after so many decisions a tick, and what fails is explained"
+                "   help: with `max_steps` a reactor flies on after so many decisions a tick; failures are explained"
             )
     return "\n".join(lines) + "\n"
 

@@ -9,7 +9,7 @@ from runtime.executive.story import SearchLog, conflict_of
 from runtime.executive.view import SPAN_CLOCK
 from runtime.executive.workbench import Workbench
 from runtime.limits import TIME_LIMIT, LimitError
-from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, LIST_THREAT, LISTS, ROLE_LOCAL, ROLE_TOKEN
+from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, LIST_ORDER, LIST_THREAT, LISTS, NONE, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.configuration.configuration import Configuration, FlawFilter, Match, default_configuration
 from runtime.solver.flaws.filters import PlanningScope
 from runtime.solver.search import Solver
@@ -67,9 +67,26 @@ class _Window(PlanningScope):
             return bench.upper(start) <= self.tick < bench.upper(bench.end(t))
         earliest = bench.lower(start)
         is_to_begin = self.is_reactive and bench.upper(start) > self.tick
-        if is_to_begin and bench.is_internal(t) and not bench.is_due_to_request(t):
+        if is_to_begin and bench.is_internal(t) and (not bench.is_due_to_request(t) or self._waits_behind(t)):
             return False
         return earliest <= self.end and earliest < self.final
+
+    def _waits_behind(self, t: int) -> bool:
+        """Whether a command for which `t` is needed has no place yet, or has to wait for the end of what goes on there.
+
+        What is needed with it is found when it begins: of what holds by then, nobody knows now.
+        """
+        bench = self.bench
+        first, before = bench.root(t), NONE
+        if first == t or not bench.is_internal(first) or not bench.is_active(first):
+            return False
+        if bench.rows.link_head[LISTS * first + LIST_ORDER] >= 0:
+            before = bench.rows.link_before[LISTS * first + LIST_ORDER]
+        elif bench.rows.link_head[LISTS * first + LIST_THREAT] >= 0:
+            return True
+        while before >= 0 and bench.root(before) == first:
+            before = bench.rows.link_before[LISTS * before + LIST_ORDER]
+        return before >= 0 and bench.lower(bench.end(before)) > self.end
 
     def _waits_for_others(self, t: int) -> bool:
         """Whether `t` is a goal, or on a timeline that others let begin what it holds."""
