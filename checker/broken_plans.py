@@ -9,7 +9,7 @@ from collections.abc import Container, Sequence
 from checker.batch.result import MissionResult
 from checker.causes import Failed, failed_by
 from checker.culprit import culprit_of
-from checker.losses import Limit
+from checker.limits import Limit
 from checker.oracle import Verdict
 from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, RepairStage, SourcePlace

@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 from checker.batch.result import MissionResult
 from checker.causes import failed_by, missed_after
 from checker.culprit import Culprit, culprit_of
-from checker.losses import GoalFate, Limit, Repairs
+from checker.limits import Limit
+from checker.losses import GoalFate, Repairs
 from checker.oracle import Judgement, Verdict
 from runtime.executive.outcome import Event, OpenGoal
 

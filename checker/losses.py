@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from checker.culprit import culprit_of
+from checker.limits import Limit, Limits
 from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, Outcome, Reason, ReasonKind, SourcePlace
 
@@ -93,18 +94,6 @@ class Losses:
 NO_LOSSES = Losses()
 
 
-class Limit(StrEnum):
-    """What a mission may have only so much of; the value is the key in [check]."""
-
-    REJECTED = "max_rejected"  # goals given up, late ones included
-    LATE = "max_late"
-    REPAIRS = "max_repairs"
-    UNDELIVERED = "max_undelivered"
-
-
-Limits = tuple[tuple[Limit, int], ...]  # the most of each loss that [check] allows
-
-
 @dataclass(frozen=True, slots=True)
 class Exceeded:
     """A limit that a mission did not keep."""
@@ -127,7 +116,7 @@ def amount(losses: Losses, limit: Limit) -> int:
             return losses.lost
 
 
-def exceeded(losses: Losses, limits: tuple[tuple[Limit, int], ...]) -> Exceeded | None:
+def exceeded(losses: Losses, limits: Limits) -> Exceeded | None:
     """The first limit that is not kept."""
     for limit, most in limits:
         found = amount(losses, limit)

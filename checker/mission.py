@@ -17,7 +17,7 @@ from checker.codes import CYCLE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE, UNKNOWN_CH
 from checker.declared_roles import declared_roles
 from checker.figures import Figures, read_figures
 from checker.goal_fit import goals_out_of_time
-from checker.losses import Limit
+from checker.limits import Limit
 from checker.mission_table import MissionText, Table, TomlTable, is_finite_number
 from checker.named_files import look_at, look_at_class
 from checker.parameter_tables import read_parameters

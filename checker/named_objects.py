@@ -4,6 +4,8 @@ from collections.abc import Iterator, Mapping
 
 from compiler.program import Assign, ClassCode, NewObject, Program, SuperCode
 
+RESOURCES = frozenset({"Reservoir", "Reusable", "CBReusable", "Unary"})  # classes of the language
+
 
 def named_objects(program: Program) -> dict[str, str]:
     """The class of each object: of those that global variables hold, and of those that constructors make in them."""
@@ -21,6 +23,12 @@ def named_objects(program: Program) -> dict[str, str]:
             found.update({called: one.class_name for called, one, _ in parts})
             made += parts
     return found
+
+
+def resources_of(program: Program) -> list[str]:
+    """The names of the resources that are global variables of a model."""
+    kinds = {code.name for code in program.classes if code.native in RESOURCES}
+    return [name for name, code in program.globals if code.kind == "object" and code.type_name in kinds]
 
 
 def _parts(name: str, constructor: int, classes: Mapping[str, ClassCode]) -> Iterator[NewObject]:

@@ -7,7 +7,8 @@ stay open are class F10 of the failure taxonomy (reference of T-REX, 1.10 and 1.
 from dataclasses import dataclass
 from enum import Enum
 
-from checker.losses import Exceeded, Limit, Limits, Losses, exceeded, losses_of
+from checker.limits import Limit, Limits
+from checker.losses import Exceeded, Losses, exceeded, losses_of
 from runtime.executive.events import single_events
 from runtime.executive.outcome import EventKind, Outcome, PropertyFate, Reason, ReasonKind
 

@@ -3,9 +3,8 @@
 from collections.abc import Iterator, Mapping
 
 from checker.codes import NO_REQUESTS, NO_THREATS
-from checker.judge.resources import resources_of
 from checker.mission import Mission
-from checker.named_objects import named_objects
+from checker.named_objects import named_objects, resources_of
 from compiler.instructions import all_instructions
 from compiler.program import Child, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note

@@ -10,7 +10,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from checker.judge.report import ResourceProfile
-from compiler.program import TOKEN_TIMES
 from runtime.executive.columns import TokenColumns
 from runtime.executive.configuration import (
     AgentConfiguration,
@@ -293,9 +292,3 @@ def _number(node: ast.expr, given: Mapping[str, float]) -> float:
         return parse_expression(ast.unparse(node)).limit(given)
     except ExpressionError:
         return math.nan
-
-
-def names_of(pattern: TokenPattern) -> tuple[str, ...]:
-    """The arguments that a pattern speaks of; the times of a token are none."""
-    where = parse_expression(pattern.where).names if pattern.where else ()
-    return tuple(name for name in (*(name for name, _ in pattern.parameters), *where) if name not in TOKEN_TIMES)

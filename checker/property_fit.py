@@ -14,15 +14,14 @@ from checker.codes import (
     SINGLE_LEVEL,
 )
 from checker.goal_fit import strange_value
-from checker.judge.resources import resources_of
 from checker.mission import Mission
 from checker.mission_table import describe
-from checker.named_objects import named_objects
-from checker.properties import names_of
+from checker.named_objects import named_objects, resources_of
 from compiler.program import TOKEN_TIMES, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
 from runtime.executive.configuration import LevelPattern, PropertyConfiguration, TokenPattern
+from runtime.executive.expression import parse_expression
 
 _Path = tuple[str | int, ...]
 _NUMBERS = ("int", "float", "bool")
@@ -93,7 +92,7 @@ def _pattern_misfits(
         return
     chosen = [known[pattern.predicate]] if pattern.predicate else own
     names = {parameter.name for one in chosen for parameter in one.parameters}
-    for name in dict.fromkeys(names_of(pattern)):
+    for name in dict.fromkeys(_names_of(pattern)):
         if name not in names:
             is_listed = name in dict(pattern.parameters)
             key: _Path = (*path, "parameters", name) if is_listed else (*path, "where")
@@ -101,7 +100,7 @@ def _pattern_misfits(
             what = pattern.predicate or str(class_name)
             advice = _value_advice(name, chosen, program) or _advice(name, [*sorted(names), *TOKEN_TIMES], "arguments")
             yield NO_ARGUMENT.at(span, predicate=what, name=name, help=advice)
-    if all(name in names for name in names_of(pattern)):
+    if all(name in names for name in _names_of(pattern)):
         yield from _uncompared(mission, pattern, path, chosen)
     for one in chosen:
         yield from _strange_values(mission, pattern, path, one, program)
@@ -112,7 +111,7 @@ def _uncompared(
 ) -> Iterator[Diagnostic]:
     """Complain of arguments in a condition that are no numbers: it would never hold."""
     span = mission.text.value_span((*path, "where"))
-    for name in dict.fromkeys(names_of(replace(pattern, parameters=()))):
+    for name in dict.fromkeys(_names_of(replace(pattern, parameters=()))):
         found = [one for one in predicates if name in {parameter.name for parameter in one.parameters}]
         kinds = [next(each.type for each in one.parameters if each.name == name) for one in found]
         if kinds and all(one.kind not in _NUMBERS for one in kinds):
@@ -151,3 +150,9 @@ def _strange_values(
 def _advice(name: str, known: list[str], what: str) -> str:
     close = nearest(name, known)
     return f"did you mean `{close}`?" if close else f"{what}: {', '.join(known) or 'none'}"
+
+
+def _names_of(pattern: TokenPattern) -> tuple[str, ...]:
+    """The arguments that a pattern speaks of; the times of a token are none."""
+    where = parse_expression(pattern.where).names if pattern.where else ()
+    return tuple(name for name in (*(name for name, _ in pattern.parameters), *where) if name not in TOKEN_TIMES)

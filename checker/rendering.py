@@ -9,7 +9,8 @@ from typing import assert_never
 from checker.conditions.condition import Condition
 from checker.conditions.rendering import literal_text
 from checker.influence import InfluenceLine
-from checker.losses import Exceeded, Limit
+from checker.limits import Limit
+from checker.losses import Exceeded
 from checker.oracle import CODE_NAMES, Judgement
 from checker.proofs.called import Called
 from checker.proofs.conflict import Confirmation, Finding

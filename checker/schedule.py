@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from checker.batch.result import MissionResult
 from checker.batch.worker import Task
-from checker.losses import Limit
+from checker.limits import Limit
 from checker.oracle import Verdict
 from checker.regression import FlownCase, RegressionCase, agent_of
 from checker.sampling.sampler import MissionRole, SamplePoint, Sampler, Trial, with_point

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from checker.batch.result import MissionResult
 from checker.causes import timed_requests
-from checker.losses import Limit
+from checker.limits import Limit
 from runtime.executive.configuration import AgentConfiguration, PropertyKind
 from runtime.executive.events import numbered, single_events
 from runtime.executive.outcome import Conflict, Event, EventKind, Outcome

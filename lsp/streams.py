@@ -161,4 +161,4 @@ def _accepted(port: int, tell: Callable[[int], None]) -> socket.socket:
 
 def calm_collector() -> None:
     """Look for garbage rarely: what an open model consists of lives long, and to look through it costs a keystroke."""
-    gc.set_threshold(200_000, 50, 100)
+    gc.set_threshold(100_000, 10, 10)

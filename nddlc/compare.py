@@ -9,7 +9,8 @@ from checker.batch.connection import StoreError
 from checker.batch.result import MissionResult, write_record
 from checker.batch.store import RunStore, read_store
 from checker.comparison import Comparison, Lost, Mission, Trialled, compare
-from checker.losses import Limit, amount
+from checker.limits import Limit
+from checker.losses import amount
 from checker.oracle import Verdict
 from checker.rendering import failure_text
 from checker.report.sentences import missions, percent

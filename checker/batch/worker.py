@@ -12,7 +12,8 @@ from multiprocessing.connection import Connection
 import runtime.build_form
 from checker.batch.garbage import seldom_collected
 from checker.batch.result import MissionResult, condense, packed
-from checker.losses import Limit, losses_of
+from checker.limits import Limit
+from checker.losses import losses_of
 from checker.oracle import OUT_OF_TIME, USER_CODE, Judgement, Verdict, judge, judge_losses
 from checker.sampling.sampler import RANDOM_POINT, SamplePoint
 from runtime.executive.configuration import AgentConfiguration

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from checker.counterfactual.instructions import is_shared, pairs_in
-from checker.counterfactual.links import DURATION_NAME, RESOURCES, TIMES, Key, Links
+from checker.counterfactual.links import DURATION_NAME, TIMES, Key, Links
 from checker.mutation.edits import EditSite
+from checker.named_objects import RESOURCES
 from compiler.program import Program
 from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Span

@@ -3,6 +3,7 @@
 from collections import defaultdict
 from collections.abc import Iterator
 
+from checker.named_objects import RESOURCES
 from compiler.instructions import all_instructions
 from compiler.program import (
     DURATION,
@@ -38,7 +39,6 @@ from nddl_lang.text.source import Span
 Key = tuple[object, ...]  # of a variable
 TIMES = "times"
 DURATION_NAME = "duration"
-RESOURCES = ("Reservoir", "Reusable", "CBReusable", "Unary")
 # Relations that leave the end of the origin free, where nothing says when the target begins.
 _FREE = ("any", "contains", "starts", "met_by", "after", "meets", "before")
 _EVENTS = "Reservoir"  # whose tokens have one time

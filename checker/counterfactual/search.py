@@ -23,7 +23,7 @@ from checker.counterfactual.trials import Trials, try_out
 from checker.counterfactual.usage import usage_of
 from checker.coverage import Universe
 from checker.culprit import is_of_values
-from checker.losses import Limit
+from checker.limits import Limit
 from checker.mission import Mission
 from checker.mutation.additions import with_additions
 from checker.mutation.edits import EditSite, SmallEdit, sites_of

@@ -8,11 +8,10 @@ from checker.judge.bench import Bench, Tok
 from checker.judge.report import ResourceProfile
 from checker.judge.tokens import ProgramJudge
 from checker.judge.values import TOLERANCE
-from compiler.program import END, FIRST_PARAMETER, START, Call, Program
+from checker.named_objects import RESOURCES
+from compiler.program import END, FIRST_PARAMETER, START, Call
 from nddl_lang.text.source import Span
 from runtime.executive.record import Value, ValueRange
-
-_RESOURCES = frozenset({"Reservoir", "Reusable", "CBReusable", "Unary"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,15 +44,9 @@ class _ResourceLimits:
     production: float = inf
 
 
-def resources_of(program: Program) -> list[str]:
-    """The names of the resources that are global variables of a model."""
-    kinds = {code.name for code in program.classes if code.native in _RESOURCES}
-    return [name for name, code in program.globals if code.kind == "object" and code.type_name in kinds]
-
-
 def judge_resources(judge: ProgramJudge, bench: Bench) -> None:
     """Judge the level of each resource of a reactor."""
-    kinds = {code.name: code.native for code in judge.program.classes if code.native in _RESOURCES}
+    kinds = {code.name: code.native for code in judge.program.classes if code.native in RESOURCES}
     if not kinds:
         return
     if any(isinstance(step, Call) and step.method in ("set_capacity", "set_limit") for step in judge.program.script):

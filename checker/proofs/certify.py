@@ -14,7 +14,8 @@ from pathlib import Path
 
 import z3
 
-from checker.losses import Limits, losses_of
+from checker.limits import Limits
+from checker.losses import losses_of
 from checker.names import relative_name
 from checker.proofs.box import Box, Point, box_of
 from checker.proofs.claims import Claim, Number

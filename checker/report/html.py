@@ -12,7 +12,8 @@ from checker.counterfactual.rendering import cause_text
 from checker.drawn import Drawn
 from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
-from checker.losses import Limit, amount
+from checker.limits import Limit
+from checker.losses import amount
 from checker.oracle import CODE_NAMES, Verdict
 from checker.rendering import beside, confirmation_text, failure_text, lines_text, step_text
 from checker.report.losses import damage_words, goal_line, goal_text, repair_text, request_line, unmet_text

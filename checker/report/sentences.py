@@ -4,7 +4,7 @@ from collections import Counter
 
 from checker.counterfactual.trials import TrialsEnd
 from checker.findings import Ending, Findings, regressed
-from checker.losses import Limit
+from checker.limits import Limit
 from checker.oracle import CODE_NAMES, OUT_OF_TIME, USER_CODE, Verdict
 from checker.rate import Method, Rate
 from checker.regression import FlownCase

@@ -8,7 +8,7 @@ import pytest
 
 from checker.excerpts import Excerpts
 from checker.flight import fly_recorded
-from checker.losses import Limit
+from checker.limits import Limit
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.variant import open_over

@@ -8,7 +8,8 @@ import pytest
 
 from checker.batch.result import MissionResult
 from checker.excerpts import Excerpts
-from checker.losses import GoalFate, Limit, amount, losses_of
+from checker.limits import Limit
+from checker.losses import GoalFate, amount, losses_of
 from checker.report.losses import goal_text, unmet_text
 from checker.tally import GoalTally, UnmetTally
 from nddlc.main import run

@@ -21,7 +21,8 @@ from checker.counterfactual.trials import TrialsEnd
 from checker.excerpts import Excerpts
 from checker.findings import Ending
 from checker.graph import NodeKind
-from checker.losses import GoalFate, Limit
+from checker.limits import Limit
+from checker.losses import GoalFate
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.kinds import EditKind

@@ -13,7 +13,8 @@ from checker.counterfactual.damage import is_farther
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.search import is_late, sites_in
 from checker.explain import result_text
-from checker.losses import Exceeded, GoalEnd, GoalFate, Limit, Losses, Repairs
+from checker.limits import Limit
+from checker.losses import Exceeded, GoalEnd, GoalFate, Losses, Repairs
 from checker.mission import read_mission
 from checker.models import ModelSet, load_models
 from checker.oracle import Verdict

@@ -19,6 +19,19 @@ def other_files(folder: Path, **bodies: str) -> None:
         (folder / f"{name}.py").write_text(textwrap.dedent(body), encoding="utf-8")
 
 
+def said_last(code: str, folder: Path) -> str:
+    """The last line that a fresh interpreter prints."""
+    told = subprocess.run(
+        [sys.executable, "-c", textwrap.dedent(code)],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=True,
+        env={"PYTHONPATH": str(Path.cwd())},
+    )
+    return told.stdout.splitlines()[-1]
+
+
 @pytest.fixture
 def importable(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder to import from, whose modules are forgotten afterwards."""
@@ -80,12 +93,19 @@ def test_a_mission_that_passes_needs_nothing_that_explains_or_proves(tmp_path: P
         print(run(["run", {mission!r}]), [name for name in {LARGE} if sys.modules[name].__dict__.get("__all__")
               or f"{{name}}.{{name}}" in sys.modules or f"{{name}}.utils" in sys.modules])
     """
-    told = subprocess.run(
-        [sys.executable, "-c", textwrap.dedent(code)],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=True,
-        env={"PYTHONPATH": str(Path.cwd())},
-    )
-    assert told.stdout.splitlines()[-1] == "0 []"
+    assert said_last(code, tmp_path) == "0 []"
+
+
+def test_a_mission_in_an_editor_loads_no_arrays_and_no_judge(tmp_path: Path) -> None:
+    mission = Path("models/gps/mission.toml").resolve()
+    code = f"""
+        import sys
+        from pathlib import Path
+        from nddl_lang.text.source import Source
+        from nddlc.editor import examine_for_editor
+        path = Path({str(mission)!r})
+        examine_for_editor(Source(str(path), path.read_text()), path.parent, False)
+        looked_at = "checker.models", "compiler.lower", "numpy", "checker.judge.tokens", "checker.properties"
+        print([name for name in looked_at if name in sys.modules])
+    """
+    assert said_last(code, tmp_path) == "['checker.models', 'compiler.lower']"

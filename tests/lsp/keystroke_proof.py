@@ -23,7 +23,7 @@ from tests.syntax.test_keystrokes import joined, moved, pasted, typed
 
 _LIFE = 25  # scripts of one session
 _LENGTHS = (100, 200, 200, 300, 900)  # of pieces of texts, in characters
-_BLOCK = 5000  # scripts between two lines that tell how far it is
+_BLOCK = 1000  # scripts between two lines that tell how far it is
 _INCLUDE = '#include "part.nddl"\n'
 _WORDS = [
     "int ",
@@ -151,6 +151,7 @@ def main() -> None:
         for begin in range(first, first + count, _BLOCK):
             seeds = range(begin, min(begin + _BLOCK, first + count))
             wrong += judged(f"scripts from seed {begin} on", len(seeds), scripts.judging(begin))
+    print(f"{wrong} differences of {count}", flush=True)
     sys.exit(1 if wrong else 0)
 
 
