@@ -14,12 +14,12 @@ from lsp.hover import hover_at, link
 from lsp.mission_answers import mission_completions, mission_definition, mission_hover
 from lsp.mission_shape import mission_outline
 from lsp.mission_texts import OpenMission, place_at
-from lsp.mission_uses import MissionUse, mission_uses, symbol_named
+from lsp.mission_uses import MissionUse, symbol_named, throughout
 from lsp.navigation import declaration, definition, implementations, type_definition
 from lsp.occurrences import Role, Symbol
 from lsp.open_text import DocumentContext
 from lsp.project import Snapshot
-from lsp.references import everywhere, highlights, occurrence_at
+from lsp.references import highlights, occurrence_at
 from lsp.rename import RenameError, TextChange, assert_renamable, prepare_rename, rename
 from lsp.session import RequestFailed, Session
 from lsp.signatures import signature_help
@@ -71,14 +71,14 @@ def _answer_navigation(session: Session) -> None:
 
     def all_references(snapshot: Snapshot, symbol: Symbol, params: types.ReferenceParams) -> list[types.Location]:
         conversion = session.documents.conversion()
-        found = everywhere(session.documents, snapshot, symbol)
+        found, uses = throughout(session.documents, session.missions, snapshot, symbol)
         return [
             *(
                 conversion.location(each.span)
                 for each in found.found.values()
                 if params.context.include_declaration or each.role is not Role.DECLARES
             ),
-            *(use.location for use in mission_uses(session.documents, session.missions, found, symbol.name)),
+            *(use.location for use in uses),
         ]
 
     def references(view: DocumentContext, params: types.ReferenceParams) -> list[types.Location]:
@@ -151,12 +151,12 @@ def _answer_rename(session: Session) -> None:
         return types.PrepareRenamePlaceholder(mission.lines.range(place.begin, place.finish), place.word)
 
     def carry_out(snapshot: Snapshot, symbol: Symbol, name: str) -> types.WorkspaceEdit:
+        found, uses = throughout(session.documents, session.missions, snapshot, symbol)
         try:
-            changes, found = rename(session.documents, snapshot, symbol, name)
+            changes = rename(session.documents, snapshot, symbol, found, name)
         except RenameError as refusal:
             raise RequestFailed(str(refusal)) from None
-        uses = mission_uses(session.documents, session.missions, found, symbol.name) if changes else []
-        return _workspace_edit(session, changes, uses, name)
+        return _workspace_edit(session, changes, uses if changes else [], name)
 
     def of_model(view: DocumentContext, params: types.RenameParams) -> types.WorkspaceEdit:
         here = occurrence_at(view, view.document.lines.offset(params.position))

@@ -31,12 +31,13 @@ from nddl_lang.lint.pages import PAGES
 from nddl_lang.semantics.natives import SELF_ACTIVATING, TIMELINE
 from nddl_lang.semantics.schema import Class, EnumValue, GlobalReference, Kind, Predicate, Variable
 from nddl_lang.text.source import Span
+from nddl_lang.text.toml_places import HEADER
 from runtime.solver.configuration.words import HANDLERS
 from runtime.solver.tags import MANAGER_NAMES
 
 _TIMELINES = ("internal", "external", "early", "late", "observe", "timeline")
 _FIGURES = ("path", "during", "phases", "targets")  # timelines
-_GIVEN = (("goal", "parameters"), ("property", "parameters"))  # tables of arguments
+_GIVEN = (("goal",), ("property",))  # tables of tokens with arguments
 _OBJECTS = {**dict.fromkeys(_TIMELINES, (TIMELINE,)), "resource": tuple(sorted(SELF_ACTIVATING))}  # by key: of a class
 _CODED = re.compile(r"^[ \t]*code[ \t]*=", re.MULTILINE)  # a reactor in Python, of which nothing is proved
 _COMPONENT = re.compile(r"""^[ \t]*component[ \t]*=[ \t]*["']([^"'\n]*)["']""", re.MULTILINE)
@@ -158,18 +159,34 @@ def named(documents: Documents, mission: OpenMission, place: MissionPlace) -> It
             thing = _figured(mission, snapshot, place)
         elif place.is_value and place.key == "predicate":
             thing = _predicate(snapshot, _sibling(mission, place, "timeline"), place.word)
-        elif place.table[:2] in _GIVEN:
-            name = place.key if place.is_value else place.word
-            predicate = _predicate(
-                snapshot, _sibling(mission, place, "timeline"), _sibling(mission, place, "predicate")
-            )
-            thing = next((each for each in predicate.parameters if each.name == name), None) if predicate else None
+        elif place.table[:1] in _GIVEN and (place.table[-1] == "parameters" or place.key == "where"):
+            thing = _given(mission, snapshot, place)
         elif (place.table[:1] == ("parameters",) and not place.is_value and len(place.table) == 1) or (
             place.table[:1] == ("joint",) and place.is_value and place.key == "parameters"
         ):
             thing = schema.globals.get(place.word) or schema.enum_values.get(place.word)
         if thing is not None:
             yield snapshot, thing
+
+
+def _given(mission: OpenMission, snapshot: Snapshot, place: MissionPlace) -> _Thing | None:
+    """A parameter of the predicate at hand, or what it is given: an object or a value of an enum."""
+    schema = snapshot.analysis.schema
+    timeline, predicate = (_sibling(mission, place, key) for key in ("timeline", "predicate"))
+    wanted = _predicate(snapshot, timeline, predicate)
+    parameters = {each.name: each for each in wanted.parameters} if wanted is not None else {}
+    if place.key == "where":
+        return parameters.get(place.word) or schema.enum_values.get(place.word) or schema.globals.get(place.word)
+    parameter = parameters.get(str(place.key) if place.is_value else place.word)
+    if parameter is None or not place.is_value:
+        return parameter
+    match parameter.type.kind:
+        case Kind.ENUM:
+            return schema.enum_values.get(place.word, parameter)
+        case Kind.OBJECT:
+            return schema.globals.get(place.word, parameter)
+        case _:
+            return parameter
 
 
 def _figured(mission: OpenMission, snapshot: Snapshot, place: MissionPlace) -> _Thing | None:
@@ -182,15 +199,20 @@ def _figured(mission: OpenMission, snapshot: Snapshot, place: MissionPlace) -> _
 
 
 def _sibling(mission: OpenMission, place: MissionPlace, key: str) -> str:
-    """The value of another key of the same table, or of the goal that it is a part of."""
+    """The value of another key of the same table, or else of the nearest table around it."""
     text = mission.text
-    begin = max(text.rfind("[[", 0, place.begin), 0)
-    end = text.find("[[", place.begin)
+    begin = max(text.rfind("\n[[", 0, place.begin), 0)
+    end = text.find("\n[[", place.begin)
+    found: dict[tuple[str, ...], str] = {}
+    table: tuple[str, ...] = ()
     for line in text[begin : end if end >= 0 else len(text)].splitlines():
         name, equals, value = line.partition("=")
-        if equals and name.strip() == key:
-            return value.strip().strip("\"'")
-    return ""
+        if (header := HEADER.match(line)) is not None:
+            table = tuple(part.strip(" \t\"'") for part in header[2].split("."))
+        elif equals and name.strip() == key:
+            found.setdefault(table, value.strip().strip("\"'"))
+    around = [place.table[:depth] for depth in range(len(place.table), -1, -1)]
+    return next((found[each] for each in around if each in found), "")
 
 
 def _class_and_predicate(mission: OpenMission, place: MissionPlace) -> tuple[str, str]:

@@ -119,6 +119,8 @@ def place_at(text: str, offset: int) -> MissionPlace:
         return MissionPlace(table, None, False, key[1].strip("\"'"), key.start(1), key.end(1))
     for string in STRING.finditer(text, key.end(), _line_end(text, offset)):
         if string.start() < offset <= string.end() - (string[0][-1:] == string[1] and len(string[0]) > 1):
+            if key[1] == "where":
+                return MissionPlace(table, key[1], True, *_word(text, offset))
             begin, end = _part(text, string, offset) if table == _FIGURES else string.span(2)
             return MissionPlace(table, key[1].strip("\"'"), True, text[begin:end], begin, end)
     return MissionPlace(table, key[1].strip("\"'"), True, *_word(text, offset))

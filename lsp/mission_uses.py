@@ -1,4 +1,4 @@
-"""Names of models in mission files: a declaration in; the places of open and closed mission files that name it, out."""
+"""Names of models in mission files: a name in; all that missions know by it, in models and mission files, out."""
 
 import re
 import stat
@@ -9,13 +9,14 @@ from pathlib import Path
 
 from lsprotocol.types import Location
 
+from lsp.default_predicates import defaults_of
 from lsp.documents import Documents
 from lsp.mission_answers import declared_at, named
 from lsp.mission_texts import MissionTexts, OpenMission, place_at
-from lsp.occurrences import Role, Symbol
+from lsp.occurrences import Occurrence, Role, Symbol
 from lsp.positions import Encoding, Lines
-from lsp.project import Snapshot
-from lsp.references import Everywhere, Place, symbol_declared_at
+from lsp.project import Project, Snapshot
+from lsp.references import Everywhere, Place, everywhere, located, symbol_declared_at
 from lsp.roots import files_below, folder_of
 from lsp.uris import key_of, uri_of
 from nddl_lang.text.read import read_text
@@ -41,22 +42,72 @@ class MissionUse:
         return Location(self.uri, self.lines.range(self.begin, self.finish))
 
 
-def mission_uses(documents: Documents, missions: MissionTexts, found: Everywhere, name: str) -> list[MissionUse]:
-    """Where mission files name what `found` has all occurrences of, in the order of the files."""
-    declared = {place for place, each in found.found.items() if each.role is Role.DECLARES}
-    models = {project.key for project in found.projects}
-    word = re.compile(rf"(?<![\w$]){re.escape(name)}(?![\w$])")
-    uses = []
-    for mission in _missions(documents, missions, found):
-        if word.search(mission.text) is not None and not models.isdisjoint(map(key_of, mission.models)):
-            for match in word.finditer(mission.text):
-                place = place_at(mission.text, match.end())
-                if (place.begin, place.finish) != match.span():
-                    continue
-                things = named(documents, mission, place)
-                if any(_place(snapshot, declared_at(snapshot, thing)) in declared for snapshot, thing in things):
-                    uses.append(MissionUse(mission.uri, mission.lines, *match.span()))
-    return uses
+def throughout(
+    documents: Documents, missions: MissionTexts, snapshot: Snapshot, symbol: Symbol
+) -> tuple[Everywhere, list[MissionUse]]:
+    """All occurrences of a symbol in all models, and where mission files name it, in the order of the files.
+
+    Reactors know timelines by name: what another model of the same mission declares by that name is the same thing.
+    """
+    found: dict[Place, Occurrence] = {}
+    projects: dict[str, Project] = {}
+    uses: dict[tuple[str, int], MissionUse] = {}
+    pending = [(snapshot, symbol)]
+    while pending:
+        of, same = pending.pop()
+        here = everywhere(documents, of, same)
+        found |= here.found
+        for project in here.projects:
+            found |= located(project.snapshot, defaults_of(project.snapshot, same))
+        projects |= {project.key: project for project in here.projects}
+        declared = {place for place, each in here.found.items() if each.role is Role.DECLARES}
+        for mission in _missions(documents, missions, here):
+            if {project.key for project in here.projects}.isdisjoint(map(key_of, mission.models)):
+                continue
+            alike = list(_dispatched(documents, mission, symbol.name))
+            for use, things in _named_by(documents, mission, symbol.name):
+                alike.append(things)
+                if any(place in declared for _, place in things):
+                    uses[use.uri, use.begin] = use
+            for things in alike:
+                if any(place in declared for _, place in things):
+                    others = [(other, place) for other, place in things if place not in found]
+                    called = [(other, symbol_declared_at(other, place)) for other, place in others]
+                    pending += [(other, each) for other, each in called if each is not None]
+    return Everywhere(dict(sorted(found.items())), tuple(projects.values())), list(uses.values())
+
+
+_Declared = list[tuple[Snapshot, Place]]  # what is alike in several models, and where each declares it
+
+
+def _named_by(documents: Documents, mission: OpenMission, name: str) -> Iterator[tuple[MissionUse, _Declared]]:
+    """Where a mission file has a name, and what is called so in its models."""
+    for match in re.finditer(rf"(?<![\w$]){re.escape(name)}(?![\w$])", mission.text):
+        place = place_at(mission.text, match.end())
+        if (place.begin, place.finish) == match.span():
+            things = [(snapshot, declared_at(snapshot, thing)) for snapshot, thing in named(documents, mission, place)]
+            yield MissionUse(mission.uri, mission.lines, *match.span()), _located(things)
+
+
+def _dispatched(documents: Documents, mission: OpenMission, name: str) -> Iterator[_Declared]:
+    """Predicates of that name, and parameters of predicates, on timelines that models of a mission share."""
+    alike: dict[tuple[str, ...], list[tuple[Snapshot, Span | None]]] = {}
+    for snapshot in filter(None, map(documents.model, mission.models)):
+        schema = snapshot.analysis.schema
+        for timeline, variable in schema.globals.items():
+            owner = schema.classes.get(variable.type.base)
+            for predicate in {**owner.inherited, **owner.predicates}.values() if owner is not None else ():
+                if predicate.name == name:
+                    alike.setdefault((timeline, name), []).append((snapshot, predicate.span))
+                for parameter in predicate.parameters:
+                    if parameter.name == name:
+                        alike.setdefault((timeline, predicate.name, name), []).append((snapshot, parameter.span))
+    yield from map(_located, alike.values())
+
+
+def _located(things: Iterable[tuple[Snapshot, Span | None]]) -> _Declared:
+    located = [(snapshot, _place(snapshot, span)) for snapshot, span in things]
+    return [(snapshot, place) for snapshot, place in located if place is not None]
 
 
 def symbol_named(documents: Documents, mission: OpenMission, offset: int) -> tuple[Snapshot, Symbol] | None:

@@ -31,7 +31,7 @@ def occurrence_at(view: DocumentContext, offset: int) -> Occurrence | None:
 
 def everywhere(documents: Documents, snapshot: Snapshot, symbol: Symbol) -> Everywhere:
     """All occurrences of `symbol`, which `snapshot` knows; also in closed models that include its declaration."""
-    found = _located(snapshot, snapshot.names.of(symbol))
+    found = located(snapshot, snapshot.names.of(symbol))
     projects: dict[str, Project] = {}
     pending = [place for place, each in found.items() if each.role is Role.DECLARES]
     seen: set[Place] = set()
@@ -45,7 +45,7 @@ def everywhere(documents: Documents, snapshot: Snapshot, symbol: Symbol) -> Ever
             same = symbol_declared_at(project.snapshot, place)
             if same is None:
                 continue
-            for other, each in _located(project.snapshot, project.snapshot.names.of(same)).items():
+            for other, each in located(project.snapshot, project.snapshot.names.of(same)).items():
                 found.setdefault(other, each)
                 if each.role is Role.DECLARES:
                     pending.append(other)
@@ -61,7 +61,8 @@ def symbol_declared_at(snapshot: Snapshot, place: Place) -> Symbol | None:
     return here.symbol if here is not None else None
 
 
-def _located(snapshot: Snapshot, occurrences: Iterable[Occurrence]) -> dict[Place, Occurrence]:
+def located(snapshot: Snapshot, occurrences: Iterable[Occurrence]) -> dict[Place, Occurrence]:
+    """Occurrences by place."""
     keys = snapshot.keys
     return {(keys[each.span.source], each.span.begin, each.span.finish): each for each in occurrences}
 

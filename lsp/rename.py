@@ -53,19 +53,18 @@ def assert_renamable(documents: Documents, snapshot: Snapshot, symbol: Symbol) -
     _assert_renamable(snapshot, symbol.type, everywhere(documents, snapshot, symbol).found)
 
 
-def rename(documents: Documents, snapshot: Snapshot, symbol: Symbol, name: str) -> tuple[list[TextChange], Everywhere]:
-    """The changes that call a symbol `name`, and all its occurrences; raises RenameError where that cannot be."""
+def rename(documents: Documents, snapshot: Snapshot, symbol: Symbol, found: Everywhere, name: str) -> list[TextChange]:
+    """The changes that call a symbol `name` at all its occurrences; raises RenameError where that cannot be."""
     if not _NAME.fullmatch(name):
         raise RenameError(f"`{name}` is no name: letters, digits, `_` and `$`, the first one no digit")
     if name in RESERVED:
         raise RenameError(f"`{name}` is a word of the language")
-    found = everywhere(documents, snapshot, symbol)
     _assert_renamable(snapshot, symbol.type, found.found)
     if name == symbol.name:
-        return [], found
+        return []
     for project in found.projects:
         _try(documents, project, [place for place in found.found if place[0] in project.snapshot.parses], name)
-    return [TextChange(place, name) for place in found.found], found
+    return [TextChange(place, name) for place in found.found]
 
 
 def _assert_renamable(snapshot: Snapshot, type_: SymbolType, found: dict[Place, Occurrence]) -> None:

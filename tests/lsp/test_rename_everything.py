@@ -72,7 +72,7 @@ def carried_out(documents: Documents, view: DocumentContext, symbol: Symbol) -> 
     """Rename one symbol and compare; the number of places."""
     projects = [project.key for project in everywhere(documents, view.snapshot, symbol).projects]
     try:
-        changes, _ = rename(documents, view.snapshot, symbol, FRESH)
+        changes = rename(documents, view.snapshot, symbol, everywhere(documents, view.snapshot, symbol), FRESH)
     except RenameError as refusal:
         # What the language brings along keeps its name, and so does what a mistake leaves in doubt.
         has_errors = any(each.severity is Severity.ERROR for each in view.snapshot.diagnostics)

@@ -1,0 +1,99 @@
+"""Rename of what several models of a mission call alike: reactors know timelines, predicates and parameters by name."""
+
+import re
+import shutil
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from checker.models import examine
+from tests.lsp.test_missions import place_of
+from tests.lsp.test_quick_fixes import mended
+
+UNSEEN = Path(__file__).resolve().parents[1] / "checker" / "unseen"
+DECLARED = re.compile(r"^(?:\w+ (\w+)(?= = new)|    predicate (\w+)|(?:int|float) (\w+))", re.MULTILINE)
+BOSS = """\
+class Lamp extends Timeline { predicate Dark { } predicate Lit { int level; } }
+float LIMIT = 3.0;
+Lamp lamp = new Lamp();
+goal(lamp.Lit once);
+once.level == 3;
+once.duration <= LIMIT;
+"""
+WORLD = """\
+class Lamp extends Timeline { predicate Dark { } predicate Lit { int level; } }
+float LIMIT = 9.0;
+Lamp lamp = new Lamp();
+Lamp::Lit { duration <= LIMIT; level <= 5; }
+"""
+MISSION = """\
+[mission]
+name = "two"
+final_tick = 60
+
+[[reactor]]
+name = "boss"
+model = "boss.nddl"
+lookahead = 60
+external = ["lamp"]
+
+[[reactor]]
+name = "world"
+model = "world.nddl"
+lookahead = 1
+internal = ["lamp"]
+"""
+
+
+@pytest.mark.parametrize(
+    ("mark", "counts"),
+    [
+        ("Lamp lam", {"boss.nddl": 2, "world.nddl": 1, "mission.toml": 2}),
+        ("predicate Li", {"boss.nddl": 2, "world.nddl": 2}),
+        ("int leve", {"boss.nddl": 2, "world.nddl": 2}),
+        ("float LIMI", {"boss.nddl": 2}),
+        ("class Lam", {"boss.nddl": 3}),
+    ],
+)
+def test_a_rename_takes_along_what_a_mission_knows_by_the_same_name(
+    client: Any, tmp_path: Path, mark: str, counts: dict[str, int]
+) -> None:
+    for name, text in ("boss.nddl", BOSS), ("world.nddl", WORLD), ("mission.toml", MISSION):
+        (tmp_path / name).write_text(text)
+    client.start(folder=tmp_path)
+    uri = (tmp_path / "boss.nddl").as_uri()
+    client.open(uri, BOSS)
+    place = place_of(BOSS, mark)
+    changes = client.ask_at("rename", uri, *place, newName="fresh")["changes"]
+    assert {each.rpartition("/")[2]: len(edits) for each, edits in changes.items()} == counts
+    found = client.ask_at("references", uri, *place, context={"includeDeclaration": True})
+    assert Counter(each["uri"].rpartition("/")[2] for each in found) == counts
+
+
+@pytest.mark.parametrize("name", ["tunnel", "hospital"])
+def test_a_mission_of_many_models_is_as_sound_after_any_rename(client: Any, tmp_path: Path, name: str) -> None:
+    folder = tmp_path / name
+    shutil.copytree(UNSEEN / name, folder)
+    mission = folder / "mission.toml"
+    sound = Counter(each.code.id for each in examine(mission))
+    texts = {path.as_uri(): path.read_text() for path in sorted(folder.iterdir())}
+    client.start(folder=folder)
+    tried = 0
+    for uri, text in texts.items():
+        if not uri.endswith(".nddl"):
+            continue
+        client.open(uri, text)
+        for found in DECLARED.finditer(text):
+            end = found.end()
+            line, character = text.count("\n", 0, end), end - text.rfind("\n", 0, end) - 2
+            edit = client.ask_at("rename", uri, line, character, newName="zzFresh9")
+            assert "changes" in edit, (found[0], edit)
+            for each, edits in edit["changes"].items():
+                Path(each.removeprefix("file://")).write_text(mended(texts[each], edits))
+            assert Counter(each.code.id for each in examine(mission)) == sound, found[0]
+            for each in edit["changes"]:
+                Path(each.removeprefix("file://")).write_text(texts[each])
+            tried += 1
+    assert tried > 20
