@@ -108,7 +108,7 @@ def _answer_navigation(session: Session) -> None:
     )
     session.answer(
         types.TEXT_DOCUMENT_IMPLEMENTATION,
-        lambda view, params: locations(implementations(view, _offset(view, params))),
+        lambda view, params: locations(implementations(session.documents, view, _offset(view, params))),
         nothing=list,
     )
     session.answer(types.TEXT_DOCUMENT_REFERENCES, references, nothing=list, of_mission=references_of_mission)
@@ -197,13 +197,16 @@ def _answer_hierarchies(session: Session) -> None:
         types.TEXT_DOCUMENT_PREPARE_TYPE_HIERARCHY,
         lambda view, params: prepare_types(view, _offset(view, params), session.documents.conversion()),
     )
-    for feature, neighbours in (
-        (types.CALL_HIERARCHY_INCOMING_CALLS, incoming_calls),
-        (types.CALL_HIERARCHY_OUTGOING_CALLS, outgoing_calls),
-        (types.TYPE_HIERARCHY_SUPERTYPES, supertypes),
-        (types.TYPE_HIERARCHY_SUBTYPES, subtypes),
-    ):
-        session.answer_item(feature, neighbours)
+    session.answer_item(
+        types.CALL_HIERARCHY_INCOMING_CALLS,
+        lambda view, at, conversion: incoming_calls(session.documents, view, at, conversion),
+    )
+    session.answer_item(
+        types.CALL_HIERARCHY_OUTGOING_CALLS,
+        lambda view, at, conversion: outgoing_calls(session.documents, view, at, conversion),
+    )
+    session.answer_item(types.TYPE_HIERARCHY_SUPERTYPES, supertypes)
+    session.answer_item(types.TYPE_HIERARCHY_SUBTYPES, subtypes)
 
 
 def _answer_completion(session: Session) -> None:

@@ -1,6 +1,7 @@
 """Keep what is open in the editor, and the models that these texts belong to; say what is wrong with each file."""
 
 from collections.abc import Callable, Iterator, Mapping
+from itertools import chain
 from pathlib import Path
 from types import MappingProxyType
 from typing import TypeVar
@@ -126,24 +127,25 @@ class Documents:
         return self._context(document) if document is not None else None
 
     def context(self, uri: str) -> DocumentContext | None:
-        """Like `view`, also for a text that is not open and that an open one includes."""
-        document = self.find(uri) or self._included(uri)
-        return self._context(document) if document is not None else None
-
-    def _context(self, document: Document) -> DocumentContext | None:
-        for project in self._around(document.key):
-            return DocumentContext(document, project.snapshot, project.snapshot.parses[document.key])
-        return None
-
-    def _included(self, uri: str) -> Document | None:
-        """The text of a file that is not open, as part of a model."""
+        """Like `view`, also for a text that is not open, as part of an open model or of a closed one."""
+        document = self.find(uri)
+        if document is not None:
+            return self._context(document)
         path = path_of(uri)
         if path is None:
             return None
         key = key_of(path)
-        for project in self._around(key):
-            text = project.snapshot.parses[key].source.text
-            return Document(uri, key, str(path), path, 0, Lines(text, self.encoding))
+        around = (project.snapshot for project in chain(self._around(key), self.holders(key)))
+        snapshot = next(around, None) or self.model(path)
+        if snapshot is None or key not in snapshot.parses:
+            return None
+        parse = snapshot.parses[key]
+        document = Document(uri, key, str(path), path, 0, Lines(parse.source.text, self.encoding))
+        return DocumentContext(document, snapshot, parse)
+
+    def _context(self, document: Document) -> DocumentContext | None:
+        for project in self._around(document.key):
+            return DocumentContext(document, project.snapshot, project.snapshot.parses[document.key])
         return None
 
     def complaints(self, uri: str) -> tuple[Shown, ...]:

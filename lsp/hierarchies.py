@@ -12,9 +12,11 @@ from lsprotocol.types import (
 )
 
 from lsp.diagnostics import Conversion
-from lsp.occurrences import Role, Symbol, SymbolType, symbol_of_class, symbol_of_predicate
+from lsp.documents import Documents
+from lsp.occurrences import Occurrence, Role, Symbol, SymbolType, symbol_of_class, symbol_of_predicate
 from lsp.open_text import DocumentContext
-from lsp.references import occurrence_at
+from lsp.project import Snapshot
+from lsp.references import everywhere, occurrence_at
 from nddl_lang.semantics.schema import Class, Predicate
 from nddl_lang.syntax.nodes import Instance, RuleDecl
 from nddl_lang.syntax.walk import descendants
@@ -22,56 +24,90 @@ from nddl_lang.text.source import Span
 
 
 def prepare_calls(view: DocumentContext, offset: int, conversion: Conversion) -> list[CallHierarchyItem] | None:
-    """The predicate at `offset`, of which tokens are asked for and which asks for tokens by its rules."""
+    """The rule whose head is at `offset`, or the predicate, of which tokens are asked for."""
     here = occurrence_at(view, offset)
     if here is None or here.symbol.type is not SymbolType.PREDICATE:
         return None
+    if (rule := _rule_at(view, here)) is not None:
+        return [_rule_item(rule, conversion)]
     predicate = _predicate_of(view, here.symbol)
     item = _call_item(predicate, conversion) if predicate is not None else None
     return [item] if item is not None else None
 
 
-def incoming_calls(view: DocumentContext, offset: int, conversion: Conversion) -> list[CallHierarchyIncomingCall]:
-    """The predicates whose rules ask for tokens of the one at `offset`."""
-    here = occurrence_at(view, offset)
-    found: dict[Symbol, tuple[Predicate, list[Range]]] = {}
-    if here is not None:
-        for rule, predicate in view.snapshot.analysis.tables.predicates.items():
-            for name, target in _requests(view, [rule]):
-                if symbol_of_predicate(target) == here.symbol:
-                    entry = found.setdefault(symbol_of_predicate(predicate), (predicate, []))
-                    entry[1].append(conversion.range(name))
-    return [
-        CallHierarchyIncomingCall(item, ranges)
-        for predicate, ranges in found.values()
-        if (item := _call_item(predicate, conversion)) is not None
-    ]
-
-
-def outgoing_calls(view: DocumentContext, offset: int, conversion: Conversion) -> list[CallHierarchyOutgoingCall]:
-    """The predicates of which the rules on the one at `offset` ask for tokens."""
+def incoming_calls(
+    documents: Documents, view: DocumentContext, offset: int, conversion: Conversion
+) -> list[CallHierarchyIncomingCall]:
+    """The rules of all models that ask for tokens of the predicate at `offset`."""
     here = occurrence_at(view, offset)
     if here is None:
         return []
-    predicates = view.snapshot.analysis.tables.predicates
-    rules = [rule for rule, predicate in predicates.items() if symbol_of_predicate(predicate) == here.symbol]
-    found: dict[Symbol, tuple[Predicate, list[Range]]] = {}
-    for name, target in _requests(view, rules):
-        found.setdefault(symbol_of_predicate(target), (target, []))[1].append(conversion.range(name))
-    return [
-        CallHierarchyOutgoingCall(item, ranges)
-        for predicate, ranges in found.values()
-        if (item := _call_item(predicate, conversion)) is not None
-    ]
+    found: dict[tuple[str, int], CallHierarchyIncomingCall] = {}
+    for snapshot in _snapshots(documents, view, here.symbol):
+        for rule in snapshot.analysis.tables.predicates:
+            names = [name for name, target in _requests(snapshot, [rule]) if symbol_of_predicate(target) == here.symbol]
+            if names:
+                call = CallHierarchyIncomingCall(
+                    _rule_item(rule, conversion), [conversion.range(each) for each in names]
+                )
+                found.setdefault((call.from_.uri, rule.span.begin), call)
+    return list(found.values())
 
 
-def _requests(view: DocumentContext, rules: Iterable[RuleDecl]) -> Iterator[tuple[Span, Predicate]]:
+def outgoing_calls(
+    documents: Documents, view: DocumentContext, offset: int, conversion: Conversion
+) -> list[CallHierarchyOutgoingCall]:
+    """The predicates of which the rule at `offset` asks for tokens; of a predicate, all rules on it."""
+    here = occurrence_at(view, offset)
+    if here is None:
+        return []
+    found: dict[tuple[str, int], tuple[CallHierarchyItem, list[Range]]] = {}
+    own = _rule_at(view, here)
+    for snapshot in [view.snapshot] if own is not None else _snapshots(documents, view, here.symbol):
+        rules = [own] if own is not None else _rules_on(snapshot, here.symbol)
+        for name, target in _requests(snapshot, rules):
+            if (item := _call_item(target, conversion)) is not None:
+                start = item.selection_range.start
+                _, ranges = found.setdefault((item.uri, start.line << 32 | start.character), (item, []))
+                place = conversion.range(name)
+                # The protocol places them in the file of the item that was asked about.
+                if name.source is view.parse.source and place not in ranges:
+                    ranges.append(place)
+    return [CallHierarchyOutgoingCall(item, ranges) for item, ranges in found.values()]
+
+
+def _snapshots(documents: Documents, view: DocumentContext, symbol: Symbol) -> list[Snapshot]:
+    """The models that know a predicate."""
+    others = (project.snapshot for project in everywhere(documents, view.snapshot, symbol).projects)
+    return [view.snapshot, *(each for each in others if each is not view.snapshot)]
+
+
+def _rule_at(view: DocumentContext, here: Occurrence) -> RuleDecl | None:
+    """The rule whose head names the predicate there."""
+    if here.role is not Role.HAS_RULE:
+        return None
+    return next((each for each in _rules_on(view.snapshot, here.symbol) if each.predicate.span == here.span), None)
+
+
+def _rules_on(snapshot: Snapshot, symbol: Symbol) -> list[RuleDecl]:
+    predicates = snapshot.analysis.tables.predicates
+    return [rule for rule, predicate in predicates.items() if symbol_of_predicate(predicate) == symbol]
+
+
+def _requests(snapshot: Snapshot, rules: Iterable[RuleDecl]) -> Iterator[tuple[Span, Predicate]]:
     """The tokens that rules ask for: where, and of which predicate."""
-    targets = view.snapshot.analysis.tables.targets
+    targets = snapshot.analysis.tables.targets
     for rule in rules:
         for node in descendants(rule):
             if isinstance(node, Instance) and (target := targets.get(node)) is not None:
                 yield node.path.parts[-1].span, target.predicate
+
+
+def _rule_item(rule: RuleDecl, conversion: Conversion) -> CallHierarchyItem:
+    place = conversion.location(rule.predicate.span)
+    whole = _around(conversion.range(rule.span), place.range)
+    detail = rule.class_name.name
+    return CallHierarchyItem(rule.predicate.name, SymbolKind.Method, place.uri, whole, place.range, detail=detail)
 
 
 def _predicate_of(view: DocumentContext, symbol: Symbol) -> Predicate | None:

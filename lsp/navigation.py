@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 
 from lsp.definition import definition_of, parameter_of
+from lsp.documents import Documents
 from lsp.meaning import Meaning, meaning_at
-from lsp.occurrences import Role, Symbol, SymbolType
+from lsp.occurrences import Role, symbol_of_predicate
 from lsp.open_text import DocumentContext
-from lsp.references import occurrence_at
+from lsp.references import everywhere, occurrence_at
 from nddl_lang.analysis import Analysis
 from nddl_lang.semantics.schema import (
     Class,
@@ -68,20 +69,20 @@ def _span_of(analysis: Analysis, type_: Type) -> Span | None:
     return schema.enums[type_.base].span if type_.base in schema.enums else None
 
 
-def implementations(view: DocumentContext, offset: int) -> list[Span]:
-    """Of a predicate, its rules; of a class, the classes that extend it; of a parameter, where rules name it."""
+def implementations(documents: Documents, view: DocumentContext, offset: int) -> list[Span]:
+    """Of a predicate, its rules in all models; of a class, those that extend it; of a parameter, where rules name it."""
     analysis = view.snapshot.analysis
     meaning = meaning_at(analysis, view.parse, offset)
-    return list(_implementations(view, meaning)) if meaning is not None else []
+    return list(_implementations(documents, view, meaning)) if meaning is not None else []
 
 
-def _implementations(view: DocumentContext, meaning: Meaning) -> Iterator[Span]:
+def _implementations(documents: Documents, view: DocumentContext, meaning: Meaning) -> Iterator[Span]:
     analysis = view.snapshot.analysis
     match meaning.thing:
         case Predicate() as predicate:
-            yield from rules_of(view, predicate)
+            yield from _rules_on(documents, view, predicate)
         case Label(predicate=predicate):
-            yield from rules_of(view, predicate)
+            yield from _rules_on(documents, view, predicate)
         case Class(name=name) | Constructor(class_name=name):
             for owner in analysis.schema.classes.values():
                 if owner.base == name and owner.span is not None:
@@ -94,6 +95,17 @@ def _implementations(view: DocumentContext, meaning: Meaning) -> Iterator[Span]:
 
 def rules_of(view: DocumentContext, predicate: Predicate) -> list[Span]:
     """The rules on a predicate and on what inherits or extends it."""
-    root = predicate.declared_in[0] if predicate.declared_in else predicate.class_name
-    symbol = Symbol(SymbolType.PREDICATE, predicate.name, root)
+    symbol = symbol_of_predicate(predicate)
     return [each.span for each in view.snapshot.names.of(symbol) if each.role is Role.HAS_RULE]
+
+
+def _rules_on(documents: Documents, view: DocumentContext, predicate: Predicate) -> Iterator[Span]:
+    """The rules of this model, then those of other models that share the predicate."""
+    own = rules_of(view, predicate)
+    yield from own
+    keys = view.snapshot.keys
+    known = {(keys[each.source], each.begin) for each in own}
+    found = everywhere(documents, view.snapshot, symbol_of_predicate(predicate)).found
+    for (key, begin, _), each in found.items():
+        if each.role is Role.HAS_RULE and (key, begin) not in known:
+            yield each.span

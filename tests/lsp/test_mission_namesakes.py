@@ -97,3 +97,26 @@ def test_a_mission_of_many_models_is_as_sound_after_any_rename(client: Any, tmp_
                 Path(each.removeprefix("file://")).write_text(texts[each])
             tried += 1
     assert tried > 20
+
+
+def test_calls_are_followed_from_model_to_model(client: Any, tmp_path: Path) -> None:
+    folder = tmp_path / "tunnel"
+    shutil.copytree(UNSEEN / "tunnel", folder)
+    client.start(folder=folder)
+    uri = (folder / "rings.nddl").as_uri()
+    text = (folder / "rings.nddl").read_text()
+    client.open(uri, text)
+    (item,) = client.ask_at("prepareCallHierarchy", uri, *place_of(text, "predicate Buil"))
+    (call,) = client.ask("callHierarchy/incomingCalls", item=item)
+    assert (call["from"]["name"], call["from"]["uri"]) == ("Section", (folder / "engineer.nddl").as_uri())
+    asking = (folder / "engineer.nddl").read_text().split("\n")
+    for each in call["fromRanges"]:  # in the file of the rule
+        assert asking[each["start"]["line"]][each["start"]["character"] : each["end"]["character"]] == "Build"
+    asked = client.ask("callHierarchy/outgoingCalls", item=item)
+    assert [each["to"]["name"] for each in asked] == ["Push", "Loading", "Place", "Inject"]
+    assert [each["fromRanges"] for each in asked] == [[]] * 4  # none of them in the file of the predicate
+    (call,) = client.ask("callHierarchy/incomingCalls", item=asked[0]["to"])
+    rule = (folder / "pilot.nddl").read_text().split("\n")[call["from"]["selectionRange"]["start"]["line"]]
+    assert rule == "Ring::Build {"
+    asked = client.ask("callHierarchy/outgoingCalls", item=call["from"])
+    assert [len(each["fromRanges"]) for each in asked] == [1, 1, 1, 1]

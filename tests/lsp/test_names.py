@@ -161,16 +161,18 @@ def test_the_ways_to_what_a_name_means(opened: Any) -> None:
     assert places([client.ask_at("typeDefinition", uri, 5, 8)]) == [("model.nddl", 1, 6)]
     assert places([client.ask_at("typeDefinition", uri, 8, 3)]) == [("base.nddl", 0, 5)]
     assert places([client.ask_at("typeDefinition", uri, 18, 2)]) == [("model.nddl", 2, 12)]
-    assert places(client.ask_at("implementation", uri, 2, 13)) == [("model.nddl", 6, 9), ("model.nddl", 12, 8)]
+    rules = [("model.nddl", 6, 9), ("model.nddl", 12, 8), ("other.nddl", 2, 9)]
+    assert places(client.ask_at("implementation", uri, 2, 13)) == rules
     assert places(client.ask_at("implementation", uri, 1, 22)) == [("model.nddl", 1, 6)]
 
 
 def test_which_rule_asks_for_which_token(opened: Any) -> None:
-    client, uri, base, _ = opened
+    client, uri, base, other = opened
     (item,) = client.ask_at("prepareCallHierarchy", uri, 9, 10)
     assert (item["name"], item["detail"], item["uri"]) == ("Idle", "Vehicle", base)
-    (call,) = client.ask("callHierarchy/incomingCalls", item=item)
-    assert call["from"]["name"] == "Run"
+    call, of_closed_model = client.ask("callHierarchy/incomingCalls", item=item)
+    assert (of_closed_model["from"]["uri"], of_closed_model["from"]["name"]) == (other, "Run")
+    assert (call["from"]["uri"], call["from"]["name"]) == (uri, "Run")
     assert [each["start"]["line"] for each in call["fromRanges"]] == [9]
     (call,) = client.ask("callHierarchy/outgoingCalls", item=call["from"])
     assert call["to"]["name"] == "Idle"
