@@ -70,7 +70,7 @@ def _span_of(analysis: Analysis, type_: Type) -> Span | None:
 
 
 def implementations(documents: Documents, view: DocumentContext, offset: int) -> list[Span]:
-    """Of a predicate, its rules in all models; of a class, those that extend it; of a parameter, where rules name it."""
+    """Of a predicate, its rules in all models; of a class, those that extend it; of a parameter, where it stands."""
     analysis = view.snapshot.analysis
     meaning = meaning_at(analysis, view.parse, offset)
     return list(_implementations(documents, view, meaning)) if meaning is not None else []
