@@ -11,7 +11,7 @@ import click
 
 from checker.batch.connection import StoreError
 from checker.batch.interruption import Interruption
-from checker.batch.pool import FlyBatch
+from checker.batch.pool import ClusterError, FlyBatch
 from checker.batch.process import keeping_a_worker
 from checker.batch.store import open_store
 from checker.campaign import Campaign, Enough
@@ -150,6 +150,8 @@ def command(
             flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show, promoted=promoted)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
+    except ClusterError as problem:
+        raise Unusable(str(problem), "start one with `nddlc cluster`, or leave --cluster out") from None
     judged = [campaign.judged(one) for one in flown.results]
     seal = seal_of(judged, flights, campaign.mission.check.confidence, tests_conditions=not no_conditions)
     sought = None if no_store or not flights else sought_before(flown, campaign.run.id, seal, store_path)

@@ -17,7 +17,7 @@ from distributed import CancelledError, Client, wait
 from distributed.scheduler import KilledWorker
 
 import runtime.build_form
-from checker.batch.pool import Batch, Supervisor
+from checker.batch.pool import Batch, ClusterError, Supervisor
 from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.batch.signals import FirstSignals
@@ -27,6 +27,8 @@ from runtime.executive.configuration import AgentConfiguration
 _LARGEST_CHUNK = 8
 _QUIET = 0.25  # seconds between two looks at the clock
 _TRANSFER = 30.0  # seconds in which the results of a chunk come over
+_ANSWER = "30s"  # in which the scheduler answers
+_GONE = (OSError, TimeoutError, CancelledError)  # what Dask raises of a cluster that is gone: there is nothing to end
 _DESERTED = 60.0  # seconds in which a worker may come back where there is none
 
 
@@ -39,15 +41,18 @@ class Cluster:
     def fly(self, batch: Batch, supervisor: Supervisor) -> signal.Signals | None:
         """Fly a batch, with as many workers as the cluster has."""
         signals = FirstSignals()
-        with Client(self._address, timeout="30s") as client, signals:
+        try:
+            client = Client(self._address, timeout=_ANSWER)
+        except (OSError, ValueError) as problem:
+            raise ClusterError(self._address, str(problem)) from None
+        with contextlib.suppress(*_GONE), client, signals:
             while batch.tasks and not supervisor.is_enough():
                 current = _Round(client, batch)
                 current.fly(supervisor, signals)
                 if signals.first is not None or current.is_lost:
                     break
                 batch = replace(batch, tasks=batch.more())
-            with contextlib.suppress(OSError, TimeoutError):  # of a cluster that is gone there is nothing to end
-                client.run(_dismiss_all, on_error="ignore")
+            client.run(_dismiss_all, on_error="ignore")
         return signals.first
 
 
@@ -78,12 +83,13 @@ class _Round:
             now = time.monotonic()
             if self._has_workers():
                 peopled = now
-            self.is_lost = now > peopled + _DESERTED
+            self.is_lost = self.is_lost or now > peopled + _DESERTED
             if self.is_lost or now > told + self._time_allowed():
                 reason = f"took longer than {self._batch.time_limit:g} s"
                 self._give_up(supervisor, "the cluster has no worker left" if self.is_lost else reason)
                 break
-        self._client.cancel(list(self._futures), force=True)
+        with contextlib.suppress(*_GONE):
+            self._client.cancel(list(self._futures), force=True)
 
     def _has_workers(self) -> bool:
         try:
@@ -103,6 +109,9 @@ class _Round:
         try:
             return list(wait(list(self._futures), timeout=_QUIET, return_when="FIRST_COMPLETED").done)
         except TimeoutError:
+            return []
+        except CancelledError:  # by nobody: the scheduler is gone
+            self.is_lost = True
             return []
 
     def _take(self, future: Any, supervisor: Supervisor) -> bool:

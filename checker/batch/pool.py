@@ -45,6 +45,13 @@ def nothing_more() -> Sequence[Task]:
     return ()
 
 
+class ClusterError(Exception):
+    """There is no cluster at an address."""
+
+    def __init__(self, address: str, reason: str) -> None:
+        super().__init__(f"no cluster answers at `{address}`: {reason}")
+
+
 @dataclass(frozen=True, slots=True)
 class Batch:
     """Missions to fly with models that `load` loads, each within a limit of seconds; then what `more` has."""

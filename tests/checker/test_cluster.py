@@ -15,7 +15,7 @@ from checker.oracle import Verdict
 from nddlc.main import run
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import Outcome
-from tests.checker.fake_agent import load_linked
+from tests.checker.fake_agent import load_linked, load_slow
 from tests.checker.test_batch import Taker, agent, fly
 
 pytestmark = pytest.mark.once
@@ -89,3 +89,38 @@ def test_reports_are_the_same_however_many_fly(
             assert run([*arguments, "--sampler", sampler, *how]) == 1
             told.append((sampler, capsys.readouterr().out))
     assert len(set(told)) == 2
+
+
+@pytest.mark.slow
+def test_what_a_cluster_leaves_when_it_goes_away_ends_as_an_error() -> None:
+    """Scheduler and workers end in the middle of a batch: what was flown counts, and nothing is raised."""
+    module = pytest.importorskip("checker.batch.cluster")
+    cluster = distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=True, host="127.0.0.1", dashboard_address=None
+    )
+
+    class Leaver(Taker):
+        def is_enough(self) -> bool:
+            if len(self.results) > 20 and cluster.status.name == "running":
+                cluster.close()
+            return False
+
+    taker = Leaver()
+    tasks = [Task(number, number) for number in range(1, 1001)]
+    assert module.Cluster(cluster.scheduler_address).fly(Batch(load_slow, agent(), tasks, 1, 30.0), taker) is None
+    assert sorted(one.number for one in taker.results) == list(range(1, 1001))
+    reasons = {one.judgement.message for one in taker.results if one.verdict is Verdict.ERROR}
+    assert reasons == {"the cluster has no worker left"}
+    assert sum(one.verdict is not Verdict.ERROR for one in taker.results) > 20
+
+
+def test_an_address_where_no_cluster_answers_is_a_mistake_of_who_gave_it(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    module = pytest.importorskip("checker.batch.cluster")
+    monkeypatch.setattr(module, "_ANSWER", "1s")
+    mission = str(Path("models/gps/mission.toml").resolve())
+    for address in ("tcp://127.0.0.1:1", "nowhere", "x://y"):
+        assert run(["check", mission, "--missions", "3", "--no-store", "--cluster", address]) == 2
+        told = capsys.readouterr().err
+        assert f"no cluster answers at `{address}`" in told and "help: start one with `nddlc cluster`" in told

@@ -27,7 +27,7 @@ start = [5, 20]
 mandatory = true
 [check]
 missions = 40
-time_limit = 1
+time_limit = 2
 """
 
 
@@ -49,7 +49,7 @@ def test_a_batch_ends_where_no_mission_does_and_names_what_stands_in_the_way(
     told = capsys.readouterr().out
     assert "4 missions of 40 (none came to its end in time), 0 failed, 4 not flown to the end in time" in told
     assert "missions that took too long, counted nowhere: 4" in told and "and 1 more, see the report" in told
-    assert "took longer than 1 s: `planner` found no end of its search at tick 0; `" in told
+    assert "took longer than 2 s: `planner` found no end of its search at tick 0; `" in told
     assert "!= " in told and "(planner.nddl:3) stands in the way in " in told
     assert "help: with `max_steps`" in told
     limit = MISSION.replace('internal = ["job"]', 'internal = ["job"]\nmax_steps = 300')
