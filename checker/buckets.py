@@ -71,11 +71,13 @@ def bucket_key(result: MissionResult) -> Key:
 
 
 def _culprit(result: MissionResult) -> Culprit:
-    """The culprit: of the conflict that ended the mission, or of what was repaired too often."""
+    """The culprit: of the conflict that ended the mission, of what was repaired too often, or Python that raised."""
     abort = result.outcome.abort if result.outcome is not None else None
     if abort is None and result.judgement.exceeded is not None and result.judgement.exceeded.limit is Limit.REPAIRS:
         at: Repairs = max(result.losses.repairs, key=lambda one: one.count)
         return Culprit(at=at.place)
+    if abort is not None and abort.reason.raised is not None:
+        return Culprit(at=abort.reason.raised)
     return culprit_of(failed_by(result.outcome).conflict if result.outcome is not None else None)
 
 

@@ -225,10 +225,10 @@ class Campaign:
         return self.judged(fly_one(self.load(agent), Task(number, seed), keep_trace=True))
 
     def _seeker(self, flyer: Flyer, bounds: Bounds, seconds: float) -> CauseSearch:
-        agent = self.models.agent
-        programs = [self.models.programs[each.model] for each in agent.reactors]
-        limits, overlay = self.mission.check.limits, overlay_of(self.models)
-        return CauseSearch(Suspended(agent, programs, limits, flyer, overlay, self.mission), bounds, seconds)
+        models, limits = self.models, self.mission.check.limits
+        programs = [models.programs[each.model] for each in models.agent.reactors]
+        world = Suspended(models.agent, programs, limits, flyer, overlay_of(models), self.mission, models.findings)
+        return CauseSearch(world, bounds, seconds)
 
     def _text(self) -> ModelText:
         return text_of(self.models.agent, self.models.programs)

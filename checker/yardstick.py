@@ -125,7 +125,7 @@ def measure(ground: Ground, flyer: Flyer, seed: int, bounds: Callable[[], Bounds
 def measure_mutant(ground: Ground, mutant: Mutant, flyer: Flyer, bounds: Bounds) -> MutantReport | None:
     """Measure one mutant; None where it is no model any more."""
     overlay = with_edit((), mutant.edit)
-    models = load_models(ground.mission, open_over(overlay))
+    models = load_models(ground.mission, open_over(overlay), is_linted=True)
     return None if models.has_errors else _measured(ground, mutant, overlay, models, flyer, bounds)
 
 
@@ -145,7 +145,9 @@ def _measured(
     if not failed:
         return MutantReport(mutant.edit, mutant.site.rule, Fate.SILENT, 0, len(results))
     programs = [models.programs[each.model] for each in models.agent.reactors]
-    world = Suspended(models.agent, programs, ground.mission.check.limits, flyer, overlay, ground.mission)
+    world = Suspended(
+        models.agent, programs, ground.mission.check.limits, flyer, overlay, ground.mission, models.findings
+    )
     root = Path(models.agent.root)
     faults = faults_of(group_failures(tuple(results)), results, CauseSearch(world, bounds))
     fullest, causes = faults[0]

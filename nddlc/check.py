@@ -220,7 +220,7 @@ def _prepare(
         _tell(found, style)
         return None
     mission = _overridden(mission, missions, seed, max_failure_rate)
-    models = models_of(mission, is_trusted=is_trusted, is_linted=style == "text")
+    models = models_of(mission, is_trusted=is_trusted, is_linted=True)
     if models.has_errors:
         _tell((*found, *models.diagnostics), style)
         return None

@@ -163,7 +163,7 @@ def _data(found: Sequence[MutantReport], mission: Mission, seed: int, interrupte
                 "rule_rank": one.rule_rank,
                 "faults": one.faults,
                 "trials": one.causes.flights,
-                "causes": [cause_data(cause) for cause in one.causes.ranked],
+                "causes": [cause_data(cause, one.causes.remarks) for cause in one.causes.ranked],
             }
             for one in found
         ],

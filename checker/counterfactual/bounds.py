@@ -108,6 +108,17 @@ def _is_in_order(text: str) -> bool:
     return least <= level <= most
 
 
+def side_of(text: str, name: str) -> int:
+    """1 where a line says what a variable is at most, -1 where at least, 0 where it compares something else."""
+    sides = _COMPARED.fullmatch(compared(text))
+    if sides is None:
+        return 0
+    left, right = sides.group(1).strip() == name, sides.group(3).strip() == name
+    if left == right:
+        return 0
+    return 1 if (sides.group(2)[0] == "<") == left else -1
+
+
 def _direction(text: str, at: int) -> int:
     """The same of what stands at an offset of a line."""
     sides = _COMPARED.fullmatch(compared(text))

@@ -8,20 +8,23 @@ stands for them. Lines of rules whose predicate never held, nor was asked for in
 
 import re
 from collections.abc import Container, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 
 from checker.causes import Failed, dead_ends, failed_by, in_common, refusals
 from checker.counterfactual.deadlocks import lines_at_odds
 from checker.counterfactual.dependence import Dependence
+from checker.counterfactual.python_ways import read_in_python
+from checker.counterfactual.removals import forbidden_by, limited_between, removes_check
+from checker.counterfactual.smallness import is_loosening
 from checker.culprit import culprit_of, own_elements
-from checker.mutation.edits import EditSite
+from checker.mutation.edits import EditSite, SmallEdit
 from checker.proofs.places import ModelText
 from compiler.program import TOKEN_TIMES
 from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Span
-from runtime.executive.configuration import PropertyConfiguration, PropertyKind, TokenPattern
+from runtime.executive.configuration import CodeConfiguration, PropertyConfiguration, PropertyKind, TokenPattern
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import Abort, Conflict, Deadlock, ElementKind, Event, EventKind, Outcome, SourcePlace
 from runtime.solver.tags import RESOURCE_THREAT
@@ -29,6 +32,7 @@ from runtime.solver.tags import RESOURCE_THREAT
 _CULPRIT, _CONFLICT, _LOG, _OBSERVED, _COVERED, _EVENT, _AWAITED, _NAMED = 0.0, 0.25, 0.5, 0.5, 0.75, 1.0, 1.0, 1.5
 _ASKER = 1.0  # of a line by which another reactor only asked for something
 _UNSAID = 3.0  # of what bears on a token, where a property says what its arguments are
+_READ = 1.0  # of what bears on the arguments that Python read which published what failed, or raised
 _STEP = 0.3  # of a line behind another one, by a local variable of a rule whose token was observed
 _UNDER = 0.3  # of the condition that a line of the conflict stands under
 _PASSED = 0.4  # length of the way through a line that only passes a value on
@@ -58,7 +62,8 @@ class Candidate:
 
     It is so much nearer for trials as lines on the way only pass a value on. A line of the conflict is tried so much
     sooner as it is `told` by it: a conflict of few lines tells more of each. `is_proven`: a number did what it is
-    there for before the failure.
+    there for before the failure. `is_linted`: lint warns of the line. `observed` are the parameters that were observed
+    to be what the line forbids, `between` those of them that have a limit on the other side too.
     """
 
     site: EditSite
@@ -67,6 +72,13 @@ class Candidate:
     nearer: float = 0.0
     told: float = 0.0
     is_proven: bool = False
+    is_linted: bool = False
+    observed: frozenset[str] = frozenset()
+    between: frozenset[str] = frozenset()
+
+    def takes_away(self, edit: SmallEdit) -> bool:
+        """Whether an edit takes a demand away altogether, or what was observed out of what the line forbids."""
+        return is_loosening(edit, self.site) or removes_check(edit, self.site, self.observed, self.between)
 
 
 def candidates_of(
@@ -76,9 +88,11 @@ def candidates_of(
     properties: Sequence[PropertyConfiguration] = (),
     exercised: Sequence[Span] = (),
     text: ModelText | None = None,
+    coded: Sequence[CodeConfiguration] = (),
 ) -> list[Candidate]:
     """All lines that can have a part in it, the nearest first; `exercised` rules and branches passing missions lack.
 
+    Where reactors in Python are on the way, among those `coded`, what they had read stands for what they published.
     With the `text` of the models z3 is asked which lines of a search that failed must have a part in it.
     """
     roots: dict[int, tuple[float, Suspicion]] = {}
@@ -104,6 +118,10 @@ def candidates_of(
             far = _OBSERVED + _STEP * steps
             if number not in roots or roots[number][0] > far:
                 roots[number] = (far, Suspicion.CONFLICT)
+    for predicate, name in sorted(read_in_python(outcome, observed, coded)):
+        for number in graph.of_predicate(predicate, name):
+            if number not in roots or roots[number][0] > _READ:
+                roots[number] = (_READ, Suspicion.TRACE)
     asked = _asked(failed.conflict) | _asked(first.conflict if first is not None else None)
     answers = [*refusals(outcome), *((first,) if first is not None and first.kind in _ANSWERS else ())]
     asked |= {(event.predicate, _TIME) for event in answers}
@@ -175,6 +193,8 @@ def candidates_of(
         slices = [graph.behind(token, variable) for token, variable in _observed(conflict)]
         told.append(_told(conflict, graph, root) | {number for lines in slices for number, _ in lines})
     proven = graph.proven(_over(outcome))
+    limited = _sites_at(culprit.place, graph, root)
+    seen_to_fail = forbidden_by(failed.conflict)
     found = []
     for number, site in enumerate(graph.sites):
         if number not in distances:
@@ -185,7 +205,12 @@ def candidates_of(
         added = _UNSEEN * is_unseen + _OUTSIDE * is_outside
         sooner = max((min(_TELLING / len(lines), _MOST_TOLD) for lines in told if number in lines), default=0.0)
         nearer = distances[number] - reached[number]
-        found.append(Candidate(site, distances[number] + added, source, nearer, sooner, number in proven))
+        candidate = Candidate(site, distances[number] + added, source, nearer, sooner, number in proven)
+        if number in limited:
+            candidate = replace(
+                candidate, observed=seen_to_fail, between=limited_between(seen_to_fail, site, graph.sites)
+            )
+        found.append(candidate)
     return sorted(found, key=lambda one: one.far)
 
 
@@ -203,6 +228,10 @@ def _told(conflict: Conflict | None, graph: Dependence, root: Path) -> set[int]:
     """The sites of the lines that a conflict names."""
     places = [one.place for one in own_elements(conflict) if one.place is not None]
     return {number for place in places for number in graph.at(str(real_path(root / place.file)), place.line)}
+
+
+def _sites_at(place: SourcePlace | None, graph: Dependence, root: Path) -> set[int]:
+    return set() if place is None else set(graph.at(str(real_path(root / place.file)), place.line))
 
 
 def _observed(conflict: Conflict | None) -> set[tuple[str, str]]:

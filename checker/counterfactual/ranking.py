@@ -2,17 +2,19 @@
 
 First come small changes that mend every failed mission that they were tried on, without a goal lost. Where there are
 none, a line may be missing: what one branch of a condition sets alone, or a constant that nothing reads, comes before
-what only takes a demand away or mends some, variables that too few lines speak of after it. A constant that is read and
+what only takes a demand away or mends some, variables that too few lines speak of after it. Where Python raised, the
+line that did so stands in their place. A constant that is read and
 has no value is second at least. Where a branch lacks what the other sets, what leads around it shows no more.
 """
 
+import re
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 
 from checker.counterfactual.candidates import Candidate
 from checker.counterfactual.damage import HEAVY
-from checker.counterfactual.smallness import is_loosening
+from checker.counterfactual.remarks import Remark
 from checker.counterfactual.trials import LineTrial, Loose, Trials, TrialsEnd
 from checker.mutation.edits import EditSite, SmallEdit
 from checker.mutation.kinds import EditKind
@@ -20,6 +22,7 @@ from checker.names import relative_name
 from runtime.executive.outcome import SourcePlace
 
 _MOST_LOOSE = 3
+_WORD = re.compile(r"[A-Za-z_]\w*")
 _LEAST_DOUBT = 4.0  # of a loose end that comes after all that has been flown
 
 
@@ -31,6 +34,7 @@ class Claim(StrEnum):
     CODED = "coded"  # the same of a call of the project's Python, of which nothing smaller can be tried
     PARTLY = "partly"  # some of them pass, or others that passed fail
     EVADES = "evades"  # they pass, but goals are lost, or what happens in all other missions does not
+    RAISED = "raised"  # Python of the project raised there, and no change of a model keeps it from that
     LOOSE_END = "loose end"  # a line may be missing: nothing was flown
     UNEVEN = "uneven branches"  # the same, by what one branch of a condition sets and the other does not
     UNREAD = "unread"  # the same, by a constant that nothing reads
@@ -67,6 +71,7 @@ class Causes:
     flights: int = 0
     ended: TrialsEnd = TrialsEnd.COMPLETE
     flown: int = 0  # the number of the failed mission
+    remarks: tuple[Remark, ...] = ()  # what lint says of the models
 
     @property
     def is_sought(self) -> bool:
@@ -92,8 +97,8 @@ NO_CAUSES = Causes()
 CANCELLED = Causes(ended=TrialsEnd.CANCELLED)  # a signal came before anything was tried
 
 
-def rank(trials: Trials, root: Path) -> Causes:
-    """All causes of a fault in order, each line once."""
+def rank(trials: Trials, root: Path, raised: RankedLine | None = None) -> Causes:
+    """All causes of a fault in order, each line once; where Python has `raised`, that line, and no line is missing."""
     uneven = {one.candidate.site for one in trials.loose if one.is_uneven}
     mending = [one for one in trials.causes if _claim(one) is Claim.MENDS]
     small = [one for one in mending if one.edit.kind is not EditKind.VALUE or one.candidate.site not in uneven]
@@ -103,20 +108,27 @@ def rank(trials: Trials, root: Path) -> Causes:
     for each in trials.loose:
         if likeliest.setdefault(each.candidate.site, each).variable == each.variable:
             likeliest[each.candidate.site] = each
-    loose = list(likeliest.values())[:_MOST_LOOSE]
+    loose = list(likeliest.values())[:_MOST_LOOSE] if raised is None else []
+    told = [] if raised is None else [raised]
     tried = [_tried(one, root) for one in large if _claim(one) is not Claim.EVADES]
     evading = [_tried(one, root) for one in large if _claim(one) is Claim.EVADES]
     likely = [] if small else [one for one in loose if one.doubt <= _LEAST_DOUBT]
     telling = [_loose(one, root) for one in likely if _is_telling(one)]
     faint = [_loose(one, root) for one in likely if not _is_telling(one)]
-    missing = [_loose(one, root) for one in loose if not small or _is_telling(one)]
+    brought = " ".join(one.edit.new for one in small)
+    missing = [_loose(one, root) for one in loose if not small or (_is_telling(one) and not _is_read(one, brought))]
     unset = [_loose(one, root) for one in loose if one.is_unset and one.doubt <= _LEAST_DOUBT]
     mended = [_tried(one, root) for one in small]
-    causes = [*mended[:1], *unset, *mended[1:], *telling, *tried, *faint, *evading, *missing]
+    causes = [*mended[:1], *unset, *mended[1:], *telling, *tried, *told, *faint, *evading, *missing]
     lines: dict[tuple[str, int], RankedLine] = {}
     for cause in causes:
         lines.setdefault((cause.place.file, cause.place.line), cause)
     return Causes(tuple(lines.values()), trials.lines, trials.flights, trials.ended)
+
+
+def _is_read(loose: Loose, brought: str) -> bool:
+    """Whether a constant that nothing reads is what a change brings in that mends: then no other line is missing."""
+    return loose.is_unread and loose.variable in _WORD.findall(brought)
 
 
 def _is_telling(loose: Loose) -> bool:
@@ -129,7 +141,7 @@ def _claim(trial: LineTrial) -> Claim:
         return Claim.EVADES
     if trial.helped < trial.missions or trial.spoilt:
         return Claim.PARTLY
-    if not is_loosening(trial.edit, trial.candidate.site):
+    if not trial.candidate.takes_away(trial.edit):
         return Claim.MENDS
     return Claim.CODED if trial.candidate.site.coded else Claim.LOOSENS
 

@@ -1,19 +1,32 @@
 """Causes in, words out: one line for each cause, and plain data for programs."""
 
+from collections.abc import Sequence
 from typing import Any, assert_never
 
 from checker.counterfactual.ranking import Causes, Claim, RankedLine
+from checker.counterfactual.remarks import Remark
 from checker.counterfactual.trials import TrialsEnd
 from checker.mutation.edits import SmallEdit
 from checker.mutation.kinds import EditKind
 from checker.mutation.swaps import swapped_parts
 
 _MOST_TEXT = 60
-GUESSES = (Claim.LOOSE_END, Claim.UNEVEN, Claim.UNREAD, Claim.UNSET)  # that no flight speaks for
+UNFLOWN = (Claim.LOOSE_END, Claim.UNEVEN, Claim.UNREAD, Claim.UNSET, Claim.RAISED)  # that no flight speaks for
 
 
-def claim_text(cause: RankedLine) -> str:
-    """What was found out about a line."""
+def claim_text(cause: RankedLine, remarks: Sequence[Remark] = ()) -> str:
+    """What was found out about a line, and what lint says of it."""
+    return "; ".join([_claimed(cause), *_remarked(cause, remarks)])
+
+
+def _remarked(cause: RankedLine, remarks: Sequence[Remark]) -> list[str]:
+    """What lint says of the line, or of a name that the change brings in."""
+    said = dict.fromkeys(f"lint says of this line: {one.text}" for one in remarks if one.is_about(cause.place))
+    brought = cause.change.new if cause.change is not None else ""
+    return [*said, *dict.fromkeys(f"lint says: {one.text}" for one in remarks if one.names_one_of(brought))]
+
+
+def _claimed(cause: RankedLine) -> str:
     change = _change_text(cause.change) if cause.change is not None else ""
     tried = f"{cause.helped} of {cause.missions} failed missions tried{_of_all(cause)}"
     match cause.claim:
@@ -30,6 +43,8 @@ def claim_text(cause: RankedLine) -> str:
         case Claim.EVADES:
             less = "but it does less" if cause.missions == 1 else "but they do less"
             return f"{change}: {_passes(cause)}, {less}"
+        case Claim.RAISED:
+            return f"`{cause.variable}` failed here; its Python was not changed"
         case Claim.LOOSE_END:
             return _missing(f"hardly one of this rule speaks of `{cause.variable}`")
         case Claim.UNEVEN:
@@ -53,9 +68,9 @@ def cause_text(causes: Causes) -> str:
         return f"not known ({effort_text(causes)})"
     if causes.first is None:
         return nothing_text(effort_text(causes))
-    if causes.first.claim in GUESSES:
-        return f"{nothing_text(effort_text(causes))}; {claim_text(causes.first)}"
-    return f"{claim_text(causes.first)} ({effort_text(causes)})"
+    if causes.first.claim in UNFLOWN:
+        return f"{nothing_text(effort_text(causes))}; {claim_text(causes.first, causes.remarks)}"
+    return f"{claim_text(causes.first, causes.remarks)} ({effort_text(causes)})"
 
 
 def nothing_text(effort: str) -> str:
@@ -94,7 +109,7 @@ def effort_text(causes: Causes, mission: str = "the same mission") -> str:
             assert_never(causes.ended)
 
 
-def cause_data(cause: RankedLine) -> dict[str, Any]:
+def cause_data(cause: RankedLine, remarks: Sequence[Remark]) -> dict[str, Any]:
     """A cause as JSON has it."""
     change = cause.change
     return {
@@ -110,6 +125,7 @@ def cause_data(cause: RankedLine) -> dict[str, Any]:
         "missions": cause.missions,
         "failed": cause.among,
         "spoilt": cause.spoilt,
+        "lint": _remarked(cause, remarks),
     }
 
 
@@ -120,7 +136,7 @@ def _change_data(change: SmallEdit | None) -> dict[str, str] | None:
 def causes_data(causes: Causes) -> dict[str, Any]:
     """All causes with what they cost, as JSON has them."""
     return {
-        "ranked": [cause_data(cause) for cause in causes.ranked],
+        "ranked": [cause_data(cause, causes.remarks) for cause in causes.ranked],
         "tried": causes.tried,
         "flights": causes.flights,
         "ended": causes.ended.value,

@@ -19,6 +19,7 @@ from checker.counterfactual.mission_lines import mission_lines
 from checker.counterfactual.missions import Missions
 from checker.counterfactual.moments import with_durations
 from checker.counterfactual.ranking import Causes, Claim, RankedLine, rank
+from checker.counterfactual.remarks import remarks_of, with_remarks
 from checker.counterfactual.trials import Trials, try_out
 from checker.counterfactual.usage import usage_of
 from checker.coverage import Universe
@@ -34,6 +35,7 @@ from checker.oracle import Verdict, judge_losses
 from checker.proofs.places import text_of
 from checker.sampling.sampler import with_point
 from compiler.program import Program
+from nddl_lang.text.diagnostic import Diagnostic
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.events import single_events
 from runtime.executive.outcome import ElementKind
@@ -49,6 +51,7 @@ class Suspended:
     flyer: Flyer
     overlay: Overlay = ()
     mission: Mission | None = None  # whose file is tried too
+    findings: tuple[Diagnostic, ...] = ()  # what lint warns of in the models
 
 
 class CauseSearch:
@@ -67,8 +70,10 @@ class CauseSearch:
     def causes(self, missions: Missions) -> Causes:
         """The causes of one fault."""
         bounds = replace(self._bounds, seconds=min(self._bounds.seconds, max(self._left, 0.0)))
-        found = rank(find_causes(missions, self._world, bounds), Path(self._world.agent.root))
-        return replace(found, flown=missions.failed[0].number)
+        trials = find_causes(missions, self._world, bounds)
+        root = Path(self._world.agent.root)
+        found = rank(trials, root, _raised_in(missions.failed[0]))
+        return replace(found, flown=missions.failed[0].number, remarks=remarks_of(self._world.findings, root))
 
     def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
         """Whether the change of a cause makes another failed mission pass, with all goals; False where time is over."""
@@ -108,11 +113,21 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     usage = usage_of(sites, passing=missions.passing, is_late=is_late(missions.failed[0]))
     models = {each.model: program for each, program in zip(world.agent.reactors, world.programs, strict=True)}
     text = text_of(world.agent, models)
-    candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties, exercised, text)
+    agent = world.agent
+    candidates = candidates_of(outcome, graph, Path(agent.root), agent.properties, exercised, text, coded=agent.coded)
+    candidates = with_remarks(candidates, world.findings)
     last = mission_lines(world.mission, outcome) if world.mission is not None else ()
     bounds = bounds.grown(sum(len(one.site.edits) for one in candidates), len(outcome.events))
     trials = try_out(candidates, missions, usage, partial(_fly, world), bounds, last, graph.beside)
     return replace(trials, loose=loose_ends(graph, candidates, usage))
+
+
+def _raised_in(failed: MissionResult) -> RankedLine | None:
+    """The line of the project's Python that raised, where that ended a mission."""
+    abort = failed.outcome.abort if failed.outcome is not None else None
+    if abort is None or abort.reason.raised is None:
+        return None
+    return RankedLine(abort.reason.raised, "", Claim.RAISED, variable=abort.reactor)
 
 
 def is_late(failed: MissionResult) -> bool:

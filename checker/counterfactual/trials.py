@@ -19,7 +19,7 @@ from checker.counterfactual.follow_ups import alternatives, follow_ups
 from checker.counterfactual.missions import Missions
 from checker.counterfactual.numbers import between, is_doubling
 from checker.counterfactual.orders import is_order_turned
-from checker.counterfactual.smallness import cost_of, delay_of, first_edits, is_loosening, is_probe
+from checker.counterfactual.smallness import cost_of, delay_of, first_edits, is_probe
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import Usage
 from checker.mutation.edits import EditSite, SmallEdit
@@ -37,6 +37,8 @@ _KEPT = 0.3  # of the flights, at most, for that
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
 _PATCHED = 1.0  # what it counts that a mission passes after repairs alone
 _PROVEN = 0.15  # odds of a number that did before the failure what it is there for
+_WARNED = 1.0  # odds of a line that lint warns of
+_SOONER = 1.0  # how much sooner it is tried
 _UNTRIED = 0.01  # what was tried in no other mission is behind what helps in all, and before what helps in some
 _NEAR, _SEARCHED = 0.25, 0.5  # distance of what a conflict speaks of, and of what ruled out a choice of a search
 _PROBE = -0.1  # when such a line is left out: where that helps, it is at fault or what it compares is
@@ -90,7 +92,7 @@ class LineTrial:
     @property
     def order(self) -> tuple[bool, float]:
         """Of the changes of one line, the first counts: what takes no demand away is before what does."""
-        return self.toll < HEAVY and is_loosening(self.edit, self.candidate.site), self.toll
+        return self.toll < HEAVY and self.candidate.takes_away(self.edit), self.toll
 
     @property
     def is_clean(self) -> bool:
@@ -100,7 +102,8 @@ class LineTrial:
     @property
     def weight(self) -> tuple[float, float, float]:
         """What causes are ranked by: missions that fail with it; what is lost, how likely it is, and how far off."""
-        change = self.toll + _FAR * self.candidate.far + _PROVEN * self.candidate.is_proven
+        seen = _PROVEN * self.candidate.is_proven - _WARNED * self.candidate.is_linted
+        change = self.toll + _FAR * self.candidate.far + seen
         return self.spoilt + 1.0 - self.helped / self.missions + _UNTRIED * self.is_untried, change, self.cost
 
 
@@ -159,6 +162,7 @@ def try_out(
             if is_doubling(edit) and _is_culprit(candidate):
                 delay = min(delay, _OTHER_WAY)
             at = (_REACH if candidate.site.is_number else _NEARNESS) * far + delay - candidate.told
+            at -= _SOONER * candidate.is_linted
             if is_spoken and is_order_turned(edit, candidate.site):
                 at = min(at, _TURNED)
             elif edit.kind is not EditKind.SWAP:
@@ -186,7 +190,7 @@ def try_out(
         site = candidate.site
         cost = cost_of(edit, site, usage)
         known = best.get(site)
-        is_costly = known is not None and known.toll <= cost and not _is_gain(edit, site, known)
+        is_costly = known is not None and known.toll <= cost and not _is_gain(edit, known)
         if (site, edit) in tried or is_costly:
             continue
         tried.add((site, edit))
@@ -252,14 +256,14 @@ def _is_spoken(candidate: Candidate) -> bool:
     return is_searched or (candidate.source is Suspicion.CONFLICT and candidate.far <= _NEAR)
 
 
-def _is_gain(edit: SmallEdit, site: EditSite, known: LineTrial) -> bool:
+def _is_gain(edit: SmallEdit, known: LineTrial) -> bool:
     """Whether an edit takes no demand away where the one that helped does."""
-    return is_loosening(known.edit, site) and not is_loosening(edit, site)
+    return known.candidate.takes_away(known.edit) and not known.candidate.takes_away(edit)
 
 
 def _small(best: Mapping[EditSite, LineTrial]) -> int:
     """How many lines make the mission pass with all its goals, by a change that takes no demand away."""
-    return sum(one.toll < HEAVY and not is_loosening(one.edit, site) for site, one in best.items())
+    return sum(one.toll < HEAVY and not one.candidate.takes_away(one.edit) for one in best.values())
 
 
 class _Trials:
@@ -336,7 +340,7 @@ class _Trials:
         site = trial.candidate.site
         known = {one.edit: one for one in helping if one.edit != trial.edit}
         others = dict.fromkeys((*known, *alternatives(trial.edit, site, usage)))
-        for edit in sorted(others, key=lambda one: (is_loosening(one, site), cost_of(one, site, usage))):
+        for edit in sorted(others, key=lambda one: (trial.candidate.takes_away(one), cost_of(one, site, usage))):
             if not self.may_go_on(0 if edit in known else 1) or self.fly(edit, against).verdict is not Verdict.PASS:
                 continue
             other = known.get(edit)

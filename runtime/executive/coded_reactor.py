@@ -9,11 +9,11 @@ from compiler.program import DomainConstant
 from runtime.executive.commands import Commands
 from runtime.executive.configuration import CodeConfiguration
 from runtime.executive.messages import Arguments, Observation, Request, make_domain, make_tuple
-from runtime.executive.outcome import EventKind, OpenGoal, Reason, ReasonKind, TimeBounds
+from runtime.executive.outcome import EventKind, OpenGoal, Reason, ReasonKind, SourcePlace, TimeBounds
 from runtime.executive.reactor import Failure, Refusal, TeleoReactor
 from runtime.executive.trace import Trace
 from runtime.plan.tags import INFINITY
-from runtime.user.fault import failed
+from runtime.user.fault import UserCodeError, failed
 from runtime.user.limit import WATCH, Plain
 from runtime.user.reactor import Argument, Asked, Now, Published, Reactor, Seen, Ticks
 
@@ -122,9 +122,11 @@ class CodedReactor(TeleoReactor):
         except BaseException as problem:
             if isinstance(problem, KeyboardInterrupt) and WATCH.was_pressed:
                 raise
-            said = str(failed(f"the reactor `{self.name}`", problem, self.files))
-            said = said.removeprefix(f"{self.folder.as_posix()}/")  # the same from wherever it is flown
-            return Failure("F7", Reason(ReasonKind.RAISED, tick=tick, message=said), self.internal, None, 0)
+            fault = failed(f"the reactor `{self.name}`", problem, self.files)
+            said = str(fault).removeprefix(f"{self.folder.as_posix()}/")  # the same from wherever it is flown
+            what = Reason(ReasonKind.RAISED, tick=tick, message=said, raised=self._place_of(fault))
+            read = tuple(sorted(self.events.values()))
+            return Failure("F7", what, self.internal, None, 0, causes=read)
         try:
             if is_first:
                 self._check_wakes()
@@ -135,6 +137,13 @@ class CodedReactor(TeleoReactor):
             what = Reason(ReasonKind.RAISED, tick=tick, message=str(problem))
             return Failure("F9", what, self.internal, None, 0)
         return None
+
+    def _place_of(self, fault: UserCodeError) -> SourcePlace | None:
+        """The line of its module that raised."""
+        if fault.raised is None:
+            return None
+        name, line, text = fault.raised
+        return SourcePlace(Path(name).as_posix().removeprefix(f"{self.folder.as_posix()}/"), line, 1, text)
 
     def _call(self, now: Now) -> object:
         """Call the code under watch; what it prints goes to standard error, since programs read standard output."""

@@ -71,8 +71,17 @@ class ConflictElement:
         """The variables that its terms speak of, as often as they do."""
         return tuple([one for term in self.terms for one in term.arguments if isinstance(one, VariableName)])
 
+    @property
+    def written(self) -> str:
+        """Its line as the modeler wrote it, where what it says speaks of a part of an expression; else empty."""
+        operands = self.says.arguments if isinstance(self.says, Term) else ()
+        is_part = any(isinstance(one, VariableName) and one.is_unnamed for one in operands)
+        return " ".join(self.place.text.split()) if is_part and self.place is not None else ""
+
     def names(self, token: TokenName) -> bool:
         """Whether what it says speaks of `token`."""
+        if self.written:
+            return False
         operands = self.says.arguments if isinstance(self.says, Term) else ()
         is_about = self.kind is ElementKind.LONGEST and self.token == token
         return is_about or any(isinstance(one, VariableName) and one.token == token for one in operands)
@@ -195,8 +204,8 @@ class ReasonKind(StrEnum):
 class Reason:
     """Why something happened, with what it is about; `limit` is a number of tries, steps or decisions.
 
-    `message` is text of others, such as that of an exception in a user's reactor. `repair` is the reason of the repair
-    in which a goal left the plan.
+    `message` is text of others, such as that of an exception in a user's reactor, which `raised` is the line of.
+    `repair` is the reason of the repair in which a goal left the plan.
     """
 
     kind: ReasonKind
@@ -207,6 +216,7 @@ class Reason:
     limit: int | None = None
     message: str = ""
     repair: "Reason | None" = None
+    raised: SourcePlace | None = None
 
 
 class RepairStage(StrEnum):

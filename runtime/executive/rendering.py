@@ -153,7 +153,7 @@ def element_text(element: ConflictElement) -> str:
             return f"{predicate} on `{timeline}` is observed as long as it lasts"
         case _:
             assert element.says is not None
-            return words(element.says)
+            return element.written or words(element.says)
 
 
 # ---- what was tried ----

@@ -11,13 +11,17 @@ HELP = "this is in code of the project, see docs/constraints.md, and docs/agent.
 class UserCodeError(Exception):
     """Code that a modeler wrote failed, or is not what nddlc asked for.
 
-    `detail` is the traceback, if there is one; `advice` says what to do about it.
+    `detail` is the traceback, if there is one; `advice` says what to do about it. `raised` is the line of the project
+    that failed, as file, line and text, if one did.
     """
 
-    def __init__(self, message: str, detail: str = "", advice: str = HELP) -> None:
+    def __init__(
+        self, message: str, detail: str = "", advice: str = HELP, raised: tuple[str, int, str] | None = None
+    ) -> None:
         super().__init__(message)
         self.detail = detail
         self.advice = advice
+        self.raised = raised
 
 
 class StoppedError(BaseException):
@@ -33,16 +37,16 @@ def failed(
 ) -> UserCodeError:
     """Name the deepest line in one of `files`, or `line` in the first of them, for an exception."""
     frames = [(frame.f_code.co_filename, line) for frame, line in traceback.walk_tb(problem.__traceback__)]
-    place, source = place_in(frames, files, line), _source_of(frames, files)
+    place, raised = place_in(frames, files, line), _raised_in(frames, files)
     if isinstance(problem, StoppedError):
         return stopped(place, what, problem.seconds)
     if isinstance(problem, SyntaxError) and problem.filename in files:
         place = f"{problem.filename}:{problem.lineno}"
     kind = type(problem).__name__
     said = problem.msg if isinstance(problem, SyntaxError) else str(problem)
-    text = f"{kind}: {said}" if said else f"{kind} at `{source}`" if source else kind
+    text = f"{kind}: {said}" if said else f"{kind} at `{raised[2]}`" if raised and raised[2] else kind
     detail = "".join(traceback.format_exception(problem))
-    return UserCodeError(f"{place}: {what} {verb}: {text.splitlines()[0]}", detail)
+    return UserCodeError(f"{place}: {what} {verb}: {text.splitlines()[0]}", detail, raised=raised)
 
 
 def stopped(place: str, what: str, seconds: float) -> UserCodeError:
@@ -56,10 +60,10 @@ def ended(place: str, what: str, how: str) -> UserCodeError:
     return UserCodeError(f"{place}: {what} ended the process ({how})")
 
 
-def _source_of(calls: Sequence[tuple[str, int]], files: tuple[str, ...]) -> str:
-    """The text of the deepest line of `calls` in one of `files`; empty where there is none."""
+def _raised_in(calls: Sequence[tuple[str, int]], files: tuple[str, ...]) -> tuple[str, int, str] | None:
+    """The deepest line of `calls` in one of `files`, with its text; None where there is none."""
     own = [each for each in calls if each[0] in files]
-    return linecache.getline(*own[-1]).strip() if own else ""
+    return (*own[-1], linecache.getline(*own[-1]).strip()) if own else None
 
 
 def place_in(calls: Sequence[tuple[str, int]], files: tuple[str, ...], line: int = 1) -> str:

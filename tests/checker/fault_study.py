@@ -127,7 +127,7 @@ def study(folder: Path, fault: Fault, number: int, missions: int, flights: int) 
     lines = tuple(f"{name}:{line}" for name, line in sorted(changed or gone))
     found = Finding(number, fault.kind, lines, "refused", is_gone=not changed)
     mission, _ = read_mission(place / "mission.toml")
-    models = load_models(mission) if mission is not None else None
+    models = load_models(mission, is_linted=True) if mission is not None else None
     if mission is None or models is None or models.has_errors:
         return found
     if not changed:
@@ -162,7 +162,7 @@ def _rule_of(models: ModelSet, file: Path, line: int) -> list[int]:
 def _passing(folder: Path, missions: int) -> list[tuple[int, int]] | str:
     """Missions that pass without a fault, each with its number and seed."""
     mission, _ = read_mission(folder / "mission.toml")
-    models = load_models(mission) if mission is not None else None
+    models = load_models(mission, is_linted=True) if mission is not None else None
     if mission is None or models is None or models.has_errors:
         return "no mission without a fault"
     seeds = [(number, mission_seed(mission.check.seed, number)) for number in range(1, missions + 1)]
@@ -179,7 +179,9 @@ def explained(
         keeps = bool(mission.check.limits)
         results = [_judged(mission, flyer.fly(models.agent, *one, keeps_trace=keeps)) for one in seeds]
         programs = [models.programs[each.model] for each in models.agent.reactors]
-        world = Suspended(models.agent, programs, mission.check.limits, flyer, overlay_of(models), mission)
+        world = Suspended(
+            models.agent, programs, mission.check.limits, flyer, overlay_of(models), mission, models.findings
+        )
         flown = [one for one in results if one.verdict is not Verdict.ERROR]
         faults = faults_of(group_failures(tuple(flown)), flown, CauseSearch(world, Bounds(flights, _SECONDS)))
     return results, faults[0][1] if faults else NO_CAUSES, len(faults)

@@ -28,6 +28,11 @@ class VariableName:
     is_local: bool = False
     reactor: str = ""
 
+    @property
+    def is_unnamed(self) -> bool:
+        """Whether nobody named it: it stands for a part of an expression, and its name is a number."""
+        return self.name[:1] == "_" and self.name[1:].isdecimal()
+
     def __str__(self) -> str:
         if self.token is None:
             return self.name
