@@ -41,6 +41,11 @@ class Culprit:
         return self.element.place if self.element is not None else self.at
 
 
+def is_value(element: ConflictElement | None) -> bool:
+    """Whether an element says what something is, which breaks nothing but by the lines that compare with it."""
+    return element is not None and element.kind in _VALUES
+
+
 def culprit_of(conflict: Conflict | None) -> Culprit:
     """The written limit that stands farthest from what the world did, sooner one of the reactor that broke."""
     if conflict is None:

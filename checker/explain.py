@@ -7,8 +7,8 @@ from checker.batch.result import MissionResult
 from checker.conditions.rendering import condition_data, condition_lines
 from checker.contrast import Contrast
 from checker.contrast_rendering import contrast_lines
-from checker.counterfactual.ranking import Causes
-from checker.counterfactual.rendering import GUESSES, causes_data, claim_text, effort_text, nothing_text
+from checker.counterfactual.ranking import Causes, Claim
+from checker.counterfactual.rendering import UNFLOWN, causes_data, claim_text, effort_text, nothing_text
 from checker.excerpts import Excerpts
 from checker.findings import Fault
 from checker.losses import Repairs
@@ -27,9 +27,11 @@ from checker.rendering import (
 from checker.sampling.rendering import number
 from checker.story import Step, StepKind, Story
 from nddl_lang.text.printable import counted
+from runtime.executive.configuration import CodeConfiguration
 from runtime.executive.outcome import SourcePlace
 
 MOST_CAUSES = 3
+_MARKED = (StepKind.FAULT, StepKind.BROKEN, StepKind.ABORT)
 _ARROW = "     │\n     ▼"
 
 
@@ -55,8 +57,10 @@ def _story_text(story: Story, run_id: str, excerpts: Excerpts, most: int) -> str
         f"  {failure_text(story.judgement, story.open_goals, story.refusal)}",
         "",
     ]
-    if story.fault is not None and story.fault.causes.tried:
+    if story.fault is not None and (story.fault.causes.tried or story.fault.causes.ranked):
         lines += [*_cause_lines(story, story.fault.causes, excerpts, most), "", "what happened:"]
+    else:
+        lines.append("no change was tried: which line is mistaken is not known; what happened:")
     causes = [cause.place for cause in story.fault.causes.ranked[:most]] if story.fault is not None else []
     for index, step in enumerate(story.steps, 1):
         lines += _step_lines(index, step, story, excerpts, causes)
@@ -73,27 +77,44 @@ def _cause_lines(story: Story, causes: Causes, excerpts: Excerpts, most: int) ->
     effort = effort_text(causes, "the same mission" if causes.flown in (0, story.number) else "one that fails alike")
     if not causes.ranked:
         return [nothing_text(effort)]
-    if causes.ranked[0].claim in GUESSES:
-        lines = [f"{nothing_text(effort)}; guesses, the likeliest first:"]
+    if causes.ranked[0].claim in UNFLOWN:
+        what = "the line that failed" if causes.ranked[0].claim is Claim.RAISED else "guesses, the likeliest first"
+        lines = [f"{nothing_text(effort)}; {what}:"]
     else:
         lines = [f"causes, the likeliest first ({effort}):"]
     for place, cause in enumerate(causes.ranked[:most], 1):
-        lines += [f"{place:>4}  {claim_text(cause)}", *excerpt_lines(cause.place, excerpts, marked=place == 1)]
+        lines.append(f"{place:>4}  {claim_text(cause, causes.remarks)}")
+        lines += excerpt_lines(cause.place, excerpts, marked=place == 1)
     if len(causes.ranked) > most:
         lines.append(f"      and {len(causes.ranked) - most} more (-v)")
+    lines += [f"      {_python_text(one)}" for one in story.coded]
     return lines
+
+
+def _python_text(coded: CodeConfiguration) -> str:
+    """That no line of a reactor in Python was tried, through which the story goes."""
+    return f"what happened goes through `{coded.name}`, which is Python ({coded.file}): none of its lines was changed"
 
 
 def _step_lines(index: int, step: Step, story: Story, excerpts: Excerpts, causes: Sequence[SourcePlace]) -> list[str]:
     when = f"tick {step.tick}: " if step.tick is not None else ""
     lines = [f"{index:>4}  {when}{step_text(step, story)}{step_label(step, causes)}"]
     if step.place is not None:
-        lines += excerpt_lines(step.place, excerpts, marked=step.kind in (StepKind.FAULT, StepKind.BROKEN))
+        lines += excerpt_lines(step.place, excerpts, marked=step.kind in _MARKED)
+        lines += [f"      {said}" for said in _remarks_on(step.place, story, causes)]
     for said, place, is_marked in beside(step):
         cause = cause_number(place, causes)
         mark = f" (cause {cause})" if cause else ""
         lines += [f"      {said}{mark}:", *excerpt_lines(place, excerpts, marked=is_marked)]
     return lines
+
+
+def _remarks_on(place: SourcePlace, story: Story, causes: Sequence[SourcePlace]) -> list[str]:
+    """What lint says of a line of the story, where it was not told with a cause."""
+    if story.fault is None or cause_number(place, causes):
+        return []
+    about = (one for one in story.fault.causes.remarks if one.is_about(place))
+    return list(dict.fromkeys(f"lint says of this line: {one.text}" for one in about))
 
 
 def excerpt_lines(

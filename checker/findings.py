@@ -221,7 +221,7 @@ def _with_causes(
 ) -> list[tuple[Bucket, Causes]]:
     """Buckets, those of one fault joined, with the causes that a seeker finds; with a focus only for its bucket."""
     if seeker is None:
-        return [(bucket, NO_CAUSES) for bucket in buckets]
+        return [(bucket, known.get(bucket.example, NO_CAUSES).among(len(bucket.missions))) for bucket in buckets]
     if focus is None:
         return faults_of(buckets, results, seeker, let)
     found: list[tuple[Bucket, Causes]] = []

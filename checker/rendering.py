@@ -3,11 +3,13 @@
 What happened in a mission is worded by `runtime.executive.rendering`.
 """
 
+import re
 from collections.abc import Sequence
 from typing import assert_never
 
 from checker.conditions.condition import Condition
 from checker.conditions.rendering import literal_text
+from checker.culprit import is_value
 from checker.influence import InfluenceLine
 from checker.limits import Limit
 from checker.losses import Exceeded
@@ -41,6 +43,10 @@ from runtime.executive.rendering import (
     reason_text,
     token_text,
 )
+from runtime.plan.readout.statements import Term
+
+_COMPARED = re.compile(r"[<>=!]")
+_EQUALITY = re.compile(r"[^=<>!]+==[^=<>!]+")
 
 _ORIGINS = {
     ElementKind.CLOCK: " (by the clock)",
@@ -148,17 +154,21 @@ def step_text(step: Step, story: Story) -> str:
 
 
 def step_label(step: Step, causes: Sequence[SourcePlace]) -> str:
-    """What marks the step at which it breaks, and those at the lines that were found to be causes, the likeliest first.
-
-    Where none was found, the line that breaks is the one to blame.
-    """
+    """What marks the step at which it breaks, and those at the lines that were found to be causes, likeliest first."""
     number = cause_number(step.place, causes)
     marks = [f"cause {number}"] if number else []
-    if step.kind is StepKind.FAULT:
-        marks.insert(0, "where it breaks" if causes else "the line to blame")
-    if step.kind is StepKind.BROKEN:
-        marks.insert(0, "where the plan broke")
+    if step.kind is StepKind.ABORT and step.place is not None:
+        marks.insert(0, "where it breaks")
+    if step.kind in (StepKind.FAULT, StepKind.BROKEN) and isinstance(step.subject, ConflictElement):
+        marks.insert(0, breaking_text(step.subject, is_repaired=step.kind is StepKind.BROKEN))
     return f"   <== {', '.join(marks)}" if marks else ""
+
+
+def breaking_text(element: ConflictElement | None, *, is_repaired: bool = False) -> str:
+    """What the element of a conflict is that it breaks at, or that the plan broke at which was repaired."""
+    if is_value(element):
+        return "the value that did not fit the plan" if is_repaired else "the value that does not fit"
+    return "where the plan broke" if is_repaired else "where it breaks"
 
 
 def beside(step: Step) -> list[tuple[str, SourcePlace, bool]]:
@@ -229,10 +239,24 @@ def event_line(event: Event) -> str:
 def element_line(element: ConflictElement) -> str:
     """What an element says, whose it is, and, where no line of the model says it, what does."""
     text = element_text(element)
+    if element.written and not _COMPARED.search(element.written):
+        text = f"`{text}`, a part of this line"
+    if _is_half(element):
+        text += f", by `{_on_one_line(element)}`"
     is_told = element.kind is ElementKind.REQUEST or element.token is None  # whose it is, or that it does not matter
     if not is_told and element.token is not None and not element.names(element.token):
         text = f"{element.token}: {text}"
     return text + _ORIGINS.get(element.kind, "")
+
+
+def _is_half(element: ConflictElement) -> bool:
+    """Whether an element is one side of an equality that the modeler wrote."""
+    is_ordered = isinstance(element.says, Term) and element.says.name == "precedence"
+    return is_ordered and bool(_EQUALITY.fullmatch(_on_one_line(element)))
+
+
+def _on_one_line(element: ConflictElement) -> str:
+    return " ".join(element.place.text.split()).rstrip(";") if element.place is not None else ""
 
 
 def waiting_text(waiting: Waiting) -> str:

@@ -25,7 +25,7 @@ from checker.requested import PlannerChoice, lines_that_ask, who_chose
 from checker.standing import Standing, StandingLines
 from checker.told_events import lost_events, promised_events, sent_requests
 from checker.waiting import Waiting, waited_for
-from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+from runtime.executive.configuration import AgentConfiguration, CodeConfiguration, ParameterConfiguration
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import (
     Abort,
@@ -108,6 +108,7 @@ class Story:
     fault: Fault | None
     confirmation: Confirmation | None = None  # z3's word on the conflict of this mission
     refusal: Event | None = None  # what was missed had been refused with
+    coded: tuple[CodeConfiguration, ...] = ()  # the reactors in Python that it goes through
 
 
 def tell(
@@ -155,7 +156,7 @@ def tell(
         *_with_askers(_conflict(conflict, confirmation), outcome, text, taken),
         *_tried(failed),
         *(Step(StepKind.WAITING, None, one) for one in waited_for(outcome, agent)),
-        Step(StepKind.ABORT, outcome.last_tick, abort),
+        Step(StepKind.ABORT, outcome.last_tick, abort, abort.reason.raised if abort is not None else None),
     ]
     return Story(
         result.number,
@@ -168,7 +169,15 @@ def tell(
         fault,
         confirmation,
         missed_after(outcome),
+        _in_python(steps, agent),
     )
+
+
+def _in_python(steps: Sequence[Step], agent: AgentConfiguration) -> tuple[CodeConfiguration, ...]:
+    """The reactors in the project's Python that published or asked for what is told, or gave up."""
+    subjects = [step.subject for step in steps]
+    heard = {one.reactor for one in subjects if isinstance(one, Event | Abort)}
+    return tuple(one for one in agent.coded if one.file and one.name in heard)
 
 
 def _confirmed(
@@ -356,19 +365,32 @@ def _tried(failed: Failed) -> list[Step]:
     steps = [Step(StepKind.CAUSE, None, element, element.place) for element in lines]
     ends = dict.fromkeys(way[-1] for way in dead_ends(failed.deadlock) if len(way) > 1)
     told = [Step(StepKind.TRIED, None, one) for one in (failed.deadlock, *list(ends)[:_MOST_ENDS])]
-    return [*told, *steps]
+    return [*steps, *told]
 
 
 def _without_repeats(steps: list[Step]) -> list[Step]:
-    """The steps with those left out whose line the story has told already, the fault excepted."""
+    """The steps with those left out whose line the story has told already, the fault excepted.
+
+    Of the elements of one line that is told which speaks of the most of it.
+    """
     kept: list[Step] = []
-    told: set[tuple[str, int]] = set()
-    guilty = next((step.place for step in steps if step.kind is StepKind.FAULT), None)
+    told: dict[tuple[str, int], int] = {}
+    guilty = next((_line(step) for step in steps if step.kind is StepKind.FAULT), None)
     for step in steps:
         if step.place is not None and step.kind is not StepKind.FAULT:
-            key = (step.place.file, step.place.line)
-            if key in told or step.place == guilty:
+            at = _line(step)
+            if at == guilty:
                 continue
-            told.add(key)
+            if at in told:
+                before = kept[told[at]]
+                assert before.place is not None
+                if before.kind is step.kind is StepKind.CAUSE and len(before.place.text) < len(step.place.text):
+                    kept[told[at]] = step
+                continue
+            told[at] = len(kept)
         kept.append(step)
     return kept
+
+
+def _line(step: Step) -> tuple[str, int]:
+    return (step.place.file, step.place.line) if step.place is not None else ("", 0)

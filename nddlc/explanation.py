@@ -75,12 +75,13 @@ def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_tr
     results = tuple(campaign.judged(one) for one in store.results(run.id))
     first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
     kept = {example: read_record(Causes, text) for example, text in store.causes(run.id).items()}
-    causes = {example: one for example, one in kept.items() if one.is_all_of(bounds.flights)}
+    may_fly = is_same and bounds.flights > 0
+    causes = {example: one for example, one in kept.items() if not may_fly or one.is_all_of(bounds.flights)}
     conditions = {example: read_condition(text) for example, text in store.conditions(run.id).items()}
     with SeekingDisplay() as seeking:
         findings = campaign.assess(
             results,
-            may_fly=is_same and bounds.flights > 0,
+            may_fly=may_fly,
             focus=first,
             bounds=bounds if bounds.flights else None,
             conditions=conditions,
@@ -109,7 +110,7 @@ def _replayed(path: Path, mission_path: Path, bounds: Bounds, is_trusted: bool) 
         raise Unusable(
             f"`{path}` has no log of a reactor of the mission that asks nobody", "these are what can be played again"
         )
-    models = load_models(changed)
+    models = load_models(changed, is_linted=True)
     campaign = Campaign(changed, models, pinned(models))
     task = campaign.task(1) if log.seed is None else replace(campaign.task(1), seed=log.seed)
     result = campaign.judged(fly_one(campaign.load(campaign.models.agent), task, keep_trace=True))
@@ -220,7 +221,7 @@ def campaign_of(run: Run, is_trusted: bool) -> tuple[Campaign, bool]:
     if mission is None:
         raise Unusable(f"`{path}`, the mission file of the run, is in error", f"nddlc check {path}")
     mission = replace(mission, check=replace(mission.check, seed=run.seed, missions=run.missions))
-    models = models_of(mission, is_trusted=is_trusted, is_named=False)
+    models = models_of(mission, is_trusted=is_trusted, is_named=False, is_linted=True)
     campaign = Campaign(mission, models, pinned(models))
     if models.has_errors:
         nothing = ModelSet(mission.agent, {}, {}, {}, ())

@@ -6,7 +6,7 @@ from checker.excerpts import Excerpts
 from checker.explain import excerpt_lines
 from checker.findings import Fault, Findings
 from checker.oracle import OUT_OF_TIME
-from checker.rendering import confirmation_text, failure_text
+from checker.rendering import breaking_text, confirmation_text, failure_text
 from checker.report.losses import damage_words, loss_lines
 from checker.report.sentences import (
     case_lines,
@@ -87,4 +87,5 @@ def _role(place: SourcePlace, fault: Fault) -> str:
     """What a place is where it is not the likeliest cause itself."""
     if fault.causes.first is not None and place == fault.places[0]:
         return ""
-    return "where it breaks" if place == fault.bucket.culprit.place else "where its limit is set"
+    culprit = fault.bucket.culprit
+    return breaking_text(culprit.element) if place == culprit.place else "where its limit is set"
