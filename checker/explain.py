@@ -25,7 +25,8 @@ from checker.rendering import (
     step_text,
 )
 from checker.sampling.rendering import number
-from checker.story import Step, StepKind, Story
+from checker.steps import Step, StepKind
+from checker.story import Story
 from nddl_lang.text.printable import counted
 from runtime.executive.configuration import CodeConfiguration
 from runtime.executive.outcome import SourcePlace

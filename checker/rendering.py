@@ -19,9 +19,11 @@ from checker.proofs.conflict import Confirmation, Finding
 from checker.requested import PlannerChoice
 from checker.sampling.rendering import describe, number
 from checker.standing import Standing
-from checker.story import Step, StepKind, Story
+from checker.steps import Step, StepKind
+from checker.story import Story
 from checker.waiting import Waiting
 from compiler.program import DomainConstant
+from nddl_lang.text.printable import counted
 from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.outcome import (
     Abort,
@@ -141,7 +143,7 @@ def step_text(step: Step, story: Story) -> str:
         case Event() as event:
             return event_line(event)
         case ConflictElement() as element:
-            return element_line(element)
+            return element_line(element) + (f", and so of {counted(step.alike, 'more token')}" if step.alike else "")
         case Deadlock() as deadlock:
             tried = ", ".join(choice_text(one.choice) for one in deadlock.tried)
             return f"{deadlock_text(deadlock)}; {f'tried in vain: {tried}' if tried else 'there is nothing to choose'}"

@@ -2,7 +2,6 @@
 
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass, replace
-from enum import StrEnum
 
 from checker.batch.result import MissionResult
 from checker.broken_plans import Breaking, blamed, broken_plan, fails_by_repairs
@@ -21,18 +20,17 @@ from checker.influence import Branch, Influence, InfluenceLine
 from checker.oracle import Judgement
 from checker.proofs.conflict import Confirmation, confirm, needed_elements
 from checker.proofs.places import ModelText
-from checker.requested import PlannerChoice, lines_that_ask, who_chose
+from checker.requested import lines_that_ask, who_chose
 from checker.standing import Standing, StandingLines
+from checker.steps import Step, StepKind, without_repeats
 from checker.told_events import lost_events, promised_events, sent_requests
-from checker.waiting import Waiting, waited_for
-from runtime.executive.configuration import AgentConfiguration, CodeConfiguration, ParameterConfiguration
+from checker.waiting import waited_for
+from runtime.executive.configuration import AgentConfiguration, CodeConfiguration
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import (
     Abort,
     Conflict,
     ConflictElement,
-    Deadlock,
-    Draw,
     ElementKind,
     Event,
     EventKind,
@@ -43,52 +41,6 @@ from runtime.executive.outcome import (
 
 _MOST_LINES = 8  # that rule out what was tried
 _MOST_ENDS = 3  # flaws against which there was nothing to choose
-
-
-class StepKind(StrEnum):
-    """What a step of a story tells."""
-
-    DRAW = "draw"
-    LINE = "line"  # of the model, on the way of the draw
-    EVENT = "event"
-    ASKED = "asked"  # a line of the model, by which an argument came to be asked for
-    CHOSEN = "chosen"  # by a planner, as no line of the model says what an argument is
-    CAUSE = "cause"  # an element of the conflict
-    FAULT = "fault"  # the culprit
-    BROKEN = "broken"  # the culprit of what broke a plan that was repaired
-    TRIED = "tried"  # what the search tried in vain
-    WAITING = "waiting"  # what an open goal waited for
-    ABORT = "abort"
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """One link of the chain: when (None: always), what, and where that is written.
-
-    `subject` is a draw with how it is drawn, the rule of a line, an event, an element of the conflict, a line that asks
-    for one, what was tried or waited for, or the abort (None: the mission went to its end). `limits` are the lines that
-    set what the faulty one compares with, `under` the conditions under which the line of an element stands,
-    `made` where the object is made that it speaks of.
-    """
-
-    kind: StepKind
-    tick: int | None
-    subject: (
-        tuple[Draw, ParameterConfiguration | None]
-        | str
-        | InfluenceLine
-        | PlannerChoice
-        | Event
-        | ConflictElement
-        | Deadlock
-        | Waiting
-        | Abort
-        | None
-    )
-    place: SourcePlace | None = None
-    limits: tuple[SourcePlace, ...] = ()
-    under: tuple[Standing, ...] = ()
-    made: SourcePlace | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,7 +117,7 @@ def tell(
         result.open_goals,
         outcome.last_tick,
         outcome.final_tick,
-        tuple(_with_conditions(_without_repeats(steps), text)),
+        tuple(_with_conditions(without_repeats(steps), text)),
         fault,
         confirmation,
         missed_after(outcome),
@@ -366,31 +318,3 @@ def _tried(failed: Failed) -> list[Step]:
     ends = dict.fromkeys(way[-1] for way in dead_ends(failed.deadlock) if len(way) > 1)
     told = [Step(StepKind.TRIED, None, one) for one in (failed.deadlock, *list(ends)[:_MOST_ENDS])]
     return [*steps, *told]
-
-
-def _without_repeats(steps: list[Step]) -> list[Step]:
-    """The steps with those left out whose line the story has told already, the fault excepted.
-
-    Of the elements of one line that is told which speaks of the most of it.
-    """
-    kept: list[Step] = []
-    told: dict[tuple[str, int], int] = {}
-    guilty = next((_line(step) for step in steps if step.kind is StepKind.FAULT), None)
-    for step in steps:
-        if step.place is not None and step.kind is not StepKind.FAULT:
-            at = _line(step)
-            if at == guilty:
-                continue
-            if at in told:
-                before = kept[told[at]]
-                assert before.place is not None
-                if before.kind is step.kind is StepKind.CAUSE and len(before.place.text) < len(step.place.text):
-                    kept[told[at]] = step
-                continue
-            told[at] = len(kept)
-        kept.append(step)
-    return kept
-
-
-def _line(step: Step) -> tuple[str, int]:
-    return (step.place.file, step.place.line) if step.place is not None else ("", 0)

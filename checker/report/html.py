@@ -35,7 +35,8 @@ from checker.report.sentences import (
 from checker.report.svg import Dot, rate_plot, scatter_plot, strip_plot
 from checker.report.timelines import Pair, pair_plot
 from checker.sampling.rendering import describe, number
-from checker.story import Step, StepKind, Story
+from checker.steps import Step, StepKind
+from checker.story import Story
 from checker.tally import Tally
 from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.distributions import DISTRIBUTIONS

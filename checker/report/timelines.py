@@ -6,7 +6,8 @@ from html import escape
 
 from checker.batch.result import MissionResult
 from checker.sampling.rendering import number
-from checker.story import StepKind, Story
+from checker.steps import StepKind
+from checker.story import Story
 from runtime.executive.events import heads_of
 from runtime.executive.outcome import Event, Outcome
 from runtime.view.axis import ticks

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from checker.oracle import Verdict
-from checker.story import StepKind
+from checker.steps import StepKind
 from tests.checker.conditions.campaigns import campaign, flown
 
 pytestmark = pytest.mark.once

@@ -14,7 +14,7 @@ from checker.models import load_models
 from checker.oracle import Verdict
 from checker.pinned import pinned
 from checker.report.html import html_report
-from checker.story import Step, StepKind
+from checker.steps import Step, StepKind
 
 pytestmark = pytest.mark.once
 

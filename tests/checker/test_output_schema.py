@@ -31,7 +31,7 @@ from checker.proofs.conflict import Finding
 from checker.report.document import json_report
 from checker.sampling.sampler import MissionRole
 from checker.schemas import SCHEMAS, schema
-from checker.story import StepKind
+from checker.steps import StepKind
 from checker.yardstick import Fate
 from nddl_lang.text.diagnostic import Severity
 from nddlc.main import run

@@ -24,7 +24,7 @@ from checker.report.sarif import sarif_report
 from checker.report.sentences import fault_title
 from checker.report.svg import Axis
 from checker.report.text import text_report
-from checker.story import Step, StepKind
+from checker.steps import Step, StepKind
 from nddl_lang.text.write import write_whole
 from runtime.executive.outcome import SourcePlace
 from tests.checker.fake_agent import load_split

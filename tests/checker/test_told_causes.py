@@ -97,6 +97,33 @@ def test_a_line_that_lint_warns_of_is_tried_first_and_says_so(tmp_path: Path, ca
     assert re.search(r"--> planner\.nddl:1[23]\n", cause)
 
 
+MANY = """#include "TREX.nddl"
+class Survey extends AgentTimeline {
+    predicate Idle { } predicate Transect { }
+    Survey(Mode m) { super(m, "Idle"); }
+}
+class Side extends AgentTimeline { predicate Turn { } Side(Mode m) { super(m, "Turn"); } }
+Survey::Transect {
+    contains(Side.Turn one);
+    contains(Side.Turn two);
+    contains(Side.Turn three);
+    one before two;
+    two before three;
+    duration <= 2;
+}
+Survey survey = new Survey(Internal);
+Side motor = new Side(Internal);
+close();
+"""
+
+
+def test_what_no_line_says_of_many_tokens_is_told_once(tmp_path: Path, capsys: Page) -> None:
+    checked(tmp_path, capsys, MANY, MISSION + GOAL.format(5), "--flights", "0")
+    page = explained(capsys, "--flights", "0")
+    assert len(re.findall(r"Side\.Turn#\d+\.duration >= 1", page)) == 1
+    assert re.search(r"Side\.Turn#\d+\.duration >= 1, and so of 2 more tokens\n", page)
+
+
 RAISING = """from runtime.user.reactor import Now, Reactor
 
 
