@@ -235,11 +235,11 @@ class Campaign:
 
     def story(self, result: MissionResult, fault: Fault | None, results: Sequence[MissionResult] = ()) -> Story:
         """Why a mission failed; what passes all the same among `results` is no reason."""
-        behaviour = result.outcome.behaviour if result.outcome is not None else ()
-        programs = [self.models.programs[each.model] for each in self.models.agent.reactors] if behaviour else []
+        models, outcome = self.models, result.outcome
+        behaviour = outcome.behaviour if outcome is not None and models.programs else ()  # none: in error by now
+        programs = [models.programs[each.model] for each in models.agent.reactors] if behaviour else []
         taken = branches_taken(programs, behaviour) if programs else None
-        usual = usual_breaking(results)
-        return tell(result, self.models.agent, self.models.influence, fault, self._text(), taken, usual)
+        return tell(result, models.agent, models.influence, fault, self._text(), taken, usual_breaking(results))
 
     def pairs(self, findings: Findings) -> list[Pair | None]:
         """The example of each fault with a passing mission near to it, which is flown again for its events."""

@@ -170,7 +170,9 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
     if found.of_log and style == "text":
         say("\n".join([*found.of_log, "", ""]))
     if not found.is_same and style == "text":
-        say("model, mission file or nddlc have changed since this run; the explanation is of what was flown\n\n")
+        is_read = bool(campaign.models.texts)
+        now = "model, mission file or nddlc have changed since this run" if is_read else "the models are in error now"
+        say(f"{now}; the explanation is of what was flown\n\n")
     if result.verdict is Verdict.FAIL:
         story = campaign.story(result, found.fault, found.results)
         most = len(found.fault.causes.ranked) if found.fault is not None and verbose else MOST_CAUSES

@@ -49,6 +49,15 @@ def test_causes_that_check_confirmed_are_told_when_something_has_changed_since(
     assert "to blame" not in page
 
 
+def test_causes_are_told_of_models_that_are_in_error_now(tmp_path: Path, capsys: Page) -> None:
+    checked(tmp_path, capsys, MODEL, MISSION + GOAL.format(5))
+    before = first_cause(explained(capsys))
+    (tmp_path / "planner.nddl").write_text(MODEL + "Survey::\n")
+    page = explained(capsys)
+    assert page.startswith("the models are in error now; the explanation is of what was flown\n")
+    assert first_cause(page) == before
+
+
 def test_where_nothing_was_tried_no_line_is_blamed(tmp_path: Path, capsys: Page) -> None:
     checked(tmp_path, capsys, MODEL, MISSION + GOAL.format(5), "--flights", "0")
     page = explained(capsys, "--flights", "0")
