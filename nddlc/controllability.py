@@ -9,8 +9,9 @@ from checker.controllability.dynamic import offending_cycle
 from checker.controllability.static import is_strongly_controllable, is_weakly_controllable, joined
 from checker.excerpts import Excerpts
 from checker.mission import LARGEST_SEED
+from checker.proofs.certify import MOST_TOKENS
 from checker.proofs.rendering import Answer, control_data, control_lines
-from checker.proofs.uncertain import plan_networks, requests_flown
+from checker.proofs.uncertain import branches_flown, plan_networks, requests_flown
 from nddl_lang.text.values import json_text
 from nddlc.certify import certifier_of
 from nddlc.inputs import Unusable, mission_here
@@ -41,8 +42,15 @@ def command(path: str | None, seed: int | None, style: str, is_trusted: bool) ->
     answers: list[dict[str, Any]] = []
     lines: list[str] = []
     verdicts = {0}
-    flights = [requests_flown(models.agent, each) for each in certifier.records_over_the_box()]
-    for plan in plan_networks(certifier.structures[0], certifier.dated[0], certifier.ranges(), flights):
+    flights, others, known = [], [], set[object]()
+    for point, record, passes in certifier.records_over_the_box():
+        flights.append(requests_flown(models.agent, record))
+        taken = branches_flown(record)
+        if passes and not taken <= known and sum(len(each.tokens) for each in record.reactors) <= MOST_TOKENS:
+            known |= taken
+            others.append(certifier.structure(point, record))
+    ranges = certifier.ranges(others=[structure for structure, _ in others])
+    for plan in plan_networks(certifier.structures[0], certifier.dated[0], ranges, flights, others):
         cycle = offending_cycle(plan.network)
         is_shown = cycle is not None and offending_cycle(plan.as_shown()) is not None
         is_strong = cycle is None and is_strongly_controllable(joined(plan.network))

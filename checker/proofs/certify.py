@@ -36,7 +36,7 @@ _MOST_STRUCTURES = 24
 _MOST_CORNERS = 64
 _NUDGES = 3
 _MOST_DRAWN = 8
-_MOST_TOKENS = 10_000  # of a flight that is told to z3; some half a minute
+MOST_TOKENS = 10_000  # of a flight that is told to z3; some half a minute
 _UNSEEN = "but for points within a billionth of a limit, where doubles round"
 
 
@@ -161,12 +161,19 @@ class Certifier:
         points = (self.box.middle(), *self.box.drawn(_MOST_CORNERS, 0))
         return any(self._flown(point) is None for point in points) and bool(self.structures)
 
-    def records_over_the_box(self) -> Iterator[MissionRecord]:
-        """Fly the middle, the corners (up to 64) and 8 points drawn evenly: what was executed, passing or not."""
+    def records_over_the_box(self) -> Iterator[tuple[Point, MissionRecord, bool]]:
+        """Fly the middle, the corners (up to 64) and 8 points drawn evenly: what was executed, and if it passed."""
         for point in self._first_points(True):
-            _, record, _ = self.fly(point)
+            _, record, passes = self.fly(point)
             self.flights += 1
-            yield record
+            yield point, record, passes
+
+    def structure(self, point: Point, record: MissionRecord) -> tuple[Structure, Dated]:
+        """The structure of what was executed at a point."""
+        structure = structure_of(self.agent, self.programs, record)
+        for name, variables in structure.draws.items():
+            structure.values.update(dict.fromkeys(variables, point[name]))
+        return structure, dated(structure)
 
     def _first_points(self, corners: bool) -> Iterator[Point]:
         yield self.box.middle()
@@ -187,13 +194,10 @@ class Certifier:
         if self.structures and not self._is_still_broken(point):
             return None
         count = sum(len(each.tokens) for each in record.reactors)
-        if count > _MOST_TOKENS:
-            self.excess = f"a flight has {count} tokens, more than the {_MOST_TOKENS} that are followed"
+        if count > MOST_TOKENS:
+            self.excess = f"a flight has {count} tokens, more than the {MOST_TOKENS} that are followed"
             return None
-        structure = structure_of(self.agent, self.programs, record)
-        for name, variables in structure.draws.items():
-            structure.values.update(dict.fromkeys(variables, point[name]))
-        found = dated(structure)
+        structure, found = self.structure(point, record)
         if not any(_same(found, other) for other in self.dated):
             self.structures.append(structure)
             self.dated.append(found)
@@ -265,10 +269,10 @@ class Certifier:
                 return (self._point(solver.model()),)
         return None if z3.unknown in (answer, apart) else ({}, {})
 
-    def ranges(self, free: Mapping[str, object] | None = None) -> Ranges:
-        """The ranges of the sampled values while only some parameters (None: all) are free."""
+    def ranges(self, free: Mapping[str, object] | None = None, others: Sequence[Structure] = ()) -> Ranges:
+        """The ranges of the sampled values, also of `others`, while only some parameters (None: all) are free."""
         sides = {}
-        for structure in self.structures:
+        for structure in (*self.structures, *others):
             for name, drawn in structure.draws.items():
                 lower, upper = self.box.range(name)
                 if free is not None and name not in free and self.base is not None:

@@ -34,6 +34,7 @@ class Structure:
     times: list[tuple[str, str, str]] = field(default_factory=list)  # start, end and duration of each token
     asked: list[tuple[str, str, str]] = field(default_factory=list)  # reactor, variables and name of what it asked for
     observed: set[str] = field(default_factory=set)  # variables of what others did, and nobody here asked for
+    lasting: set[str] = field(default_factory=set)  # of what its owner has no rule for: until something else is asked
     arguments: dict[str, tuple[Value, ...]] = field(default_factory=dict)  # of that, by its variables
     earliest: dict[str, int] = field(default_factory=dict)  # starts that the mission file asks for
     draws: dict[str, dict[str, None]] = field(default_factory=dict)  # variables of each sampled parameter
@@ -259,6 +260,8 @@ class _ReactorReader:
                 theirs = owned.get((str(token.object), token.start))
                 if str(token.object) not in shared or theirs is None or theirs.predicate != token.predicate:
                     continue
+                if not theirs.runs:
+                    self.found.lasting.add(f"{self.configuration.name}:{token.key}")
                 pairs = [START, END] if theirs.end == token.end else [START]
                 count = len(self.names.predicates[token.predicate].parameters)
                 for variable in (*pairs, *range(FIRST_PARAMETER, FIRST_PARAMETER + count)):

@@ -1,7 +1,7 @@
 """A flown mission's plan as a network with uncertain durations: those of tokens that a reactor asks others for.
 
 How long such a token may take is the range of what its owner makes of the sampled parameters, over the whole box. The
-flight shows one branch of the owner's rules: what other flights show beside it counts, too.
+flight shows one branch of the owner's rules: flights that took others count with what their lines make of the box, too.
 """
 
 from collections import Counter
@@ -14,6 +14,7 @@ from typing import NamedTuple
 import z3
 
 from checker.controllability.network import ContingentLink, UncertainNetwork
+from checker.proofs.claims import Number
 from checker.proofs.dating import Dated
 from checker.proofs.demands import Demand
 from checker.proofs.distances import POINTS, DistanceReader
@@ -22,7 +23,7 @@ from checker.proofs.operands import name_of
 from checker.proofs.solving import fraction
 from checker.proofs.structure import Structure
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.record import MissionRecord, Value
+from runtime.executive.record import BodyRun, MissionRecord, Value
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,21 +120,104 @@ def _numbered(
         yield (names[0], names[1]), start, more
 
 
+def branches_flown(record: MissionRecord) -> frozenset[object]:
+    """The branches that owners took in their rules for what they were asked for, by request."""
+    found: set[object] = set()
+    for reactor in record.reactors:
+        counts: Counter[tuple[str, _Arguments]] = Counter()
+        for token in sorted(reactor.tokens, key=lambda one: one.key):
+            if token.origin == "request" and token.state == "active":
+                asked = (token.predicate, token.arguments)
+                counts[asked] += 1
+                taken = tuple(_branches(run) for run in token.runs)
+                found.add((reactor.reactor, *asked, counts[asked], taken))
+    return frozenset(found)
+
+
+def _branches(run: BodyRun) -> tuple[object, ...]:
+    return (run.rule, *((guard.branch, _branches(guard.run)) for guard in run.guards if guard.run is not None))
+
+
 def plan_networks(
-    structure: Structure, found: Dated, ranges: Ranges, flights: Sequence[Flown] = ()
+    structure: Structure,
+    found: Dated,
+    ranges: Ranges,
+    flights: Sequence[Flown] = (),
+    others: Sequence[tuple[Structure, Dated]] = (),
 ) -> Iterator[PlanNetwork]:
-    """The network of each reactor that asks others for something; `flights` are those of other values."""
+    """The network of each reactor that asks others for something.
+
+    `flights` are those of other values, and `others` the structures of those that took other branches.
+    """
     for reactor in dict.fromkeys(reactor for reactor, _, _ in structure.asked):
-        yield _Builder(structure, found, ranges, reactor, flights).build()
+        beside = [_Branch(dates.known, _requests(one, reactor), _chosen(dates)) for one, dates in others]
+        yield _Builder(structure, found, ranges, reactor, flights, beside).build()
+
+
+def _chosen(found: Dated) -> frozenset[str]:
+    """The sampled values by which branches and orders of a flight were chosen: others would have led elsewhere."""
+    claims = [one.claim for one in found.conditions if one.demand.is_structure]
+    return frozenset(name for claim in claims for name in _sampled(claim))
+
+
+def _sampled(number: Number) -> Iterator[str]:
+    """The names of the variables in an expression."""
+    waiting, seen = [number], set[int]()
+    while waiting:
+        one = waiting.pop()
+        if one.get_id() not in seen:
+            seen.add(one.get_id())
+            waiting += one.children()
+            if name := name_of(one):
+                yield name
+
+
+def _requests(structure: Structure, reactor: str) -> dict[str, tuple[_Request, _Request]]:
+    """How the requests of a reactor are counted, by their variables."""
+    begun = []
+    for owner, each, name in structure.asked:
+        start = structure.values[each + ".start"]
+        if owner == reactor and isinstance(start, int):
+            begun.append((start, name.partition("#")[0], structure.arguments[each], each))
+    return {variable: requests for requests, _, variable in _numbered(reactor, begun)}
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Branch:
+    """What another flight knows of the same requests, over the sampled values."""
+
+    known: Mapping[str, Number]
+    requests: Mapping[str, tuple[_Request, _Request]]
+    chosen: frozenset[str]
+
+    def length(self, asked: tuple[_Request, _Request], origin: tuple[_Request, _Request], point: str) -> Number | None:
+        """How long a request takes from a time of another on; None where this flight does not tell."""
+        token, other = self._alike(asked), self._alike(origin)
+        end, begin = self.known.get(f"{token}.end"), self.known.get(f"{other}{point}")
+        return None if token is None or other is None or end is None or begin is None else z3.simplify(end - begin)
+
+    def _alike(self, asked: tuple[_Request, _Request]) -> str | None:
+        for name in (0, 1):
+            for variable, requests in self.requests.items():
+                if requests[name] == asked[name]:
+                    return variable
+        return None
 
 
 class _Builder:
     def __init__(
-        self, structure: Structure, found: Dated, ranges: Ranges, reactor: str, flights: Sequence[Flown]
+        self,
+        structure: Structure,
+        found: Dated,
+        ranges: Ranges,
+        reactor: str,
+        flights: Sequence[Flown],
+        others: Sequence[_Branch],
     ) -> None:
         self.structure = structure
-        self.flights = flights
+        self.flights, self.others = flights, others
         self.known = found.known
+        self.chosen = _chosen(found)
         self.ranges = ranges
         self.reactor = reactor
         self.points: dict[str, int] = {"": 0}  # the beginning of the mission
@@ -154,12 +238,10 @@ class _Builder:
         """The edges of all demands on the reactor's times, and the links of what it asked for."""
         durations = []
         endless = []
-        asked = [each for each in self.structure.asked if each[0] == self.reactor]
-        begun = [
-            (self._flown(each + ".start"), name.partition("#")[0], self.structure.arguments[each], each)
-            for _, each, name in asked
+        asked = [
+            each for each in self.structure.asked if each[0] == self.reactor and each[1] not in self.structure.lasting
         ]
-        self.requests = {variable: requests for requests, _, variable in _numbered(self.reactor, begun)}
+        self.requests = _requests(self.structure, self.reactor)
         for number, (_, variable, name) in enumerate(asked):
             taken = self._taken(variable, name, asked[:number] + asked[number + 1 :])
             if taken is None:
@@ -197,19 +279,23 @@ class _Builder:
             origin = source + point
             if origin not in self.known:
                 continue
-            length = z3.simplify(end - self.known[origin])
-            lower, upper = self.ranges.range(length)
-            if isinf(lower) or isinf(upper):
-                continue
+            lengths = [(z3.simplify(end - self.known[origin]), self.chosen)]
+            for branch in self.others:
+                length = branch.length(self.requests[variable], self.requests[source], point)
+                if length is not None:
+                    lengths.append((length, branch.chosen))
+            told = [(self.ranges.range(each), self._is_attained(each, chosen)) for each, chosen in lengths]
             seen = list(self._seen(variable, source, point))
             whole = [taken for taken, is_known in seen if is_known]
-            lower, upper = min([lower, *whole]), max([upper, *whole])
-            if lower < 0:
+            lower = min([*(ends[0] for ends, _ in told), *whole])
+            upper = max([*(ends[1] for ends, _ in told), *(taken for taken, _ in seen)])
+            if isinf(lower) or isinf(upper) or lower < 0:
                 continue
             own = self._flown(variable + ".end") - self._flown(origin)
             shown = min([own, *whole]), max([own, *(taken for taken, _ in seen)])
-            if self.ranges.is_attained(length):
-                shown = min(shown[0], ceil(lower)), max(shown[1], floor(upper))
+            for ends, is_attained in told:
+                if is_attained:
+                    shown = min(shown[0], ceil(ends[0])), max(shown[1], floor(ends[1]))
             if best is None or upper - lower < best[0]:
                 best = (upper - lower, origin, VehicleDuration(name, ceil(lower), floor(upper), label, shown))
         if best is None:
@@ -218,6 +304,10 @@ class _Builder:
         link = ContingentLink(self.points[origin], self.points[variable + ".end"], taken.lower, taken.upper, taken)
         self.network.links.append(link)
         return taken
+
+    def _is_attained(self, length: Number, chosen: frozenset[str]) -> bool:
+        """Whether all of a range is taken: no value stands in it twice, or has led to another branch."""
+        return self.ranges.is_attained(length) and chosen.isdisjoint(_sampled(length))
 
     def _seen(self, variable: str, source: str, point: str) -> Iterator[tuple[int, bool]]:
         """How long a token took in each flight, from a time of another on, and whether that is known exactly."""

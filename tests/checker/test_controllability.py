@@ -347,3 +347,41 @@ def test_a_flight_too_large_for_z3_is_refused_at_once() -> None:
     found = CliRunner().invoke(command, [str(GPS.parent / "auv" / "inl" / "mission.toml")], standalone_mode=False)
     assert isinstance(found.exception, Unusable)
     assert "tokens, more than the 10000 that are followed" in found.exception.message
+
+
+SNOW = """
+float NOZZLE = [5.0 7.0];
+int SNOWING = [0 2];
+Motor::Run {
+    float nozzle; nozzle == sampledParameter(NOZZLE);
+    int snowing; snowing == sampledParameter(SNOWING);
+    if (snowing == 2) { duration == ceil(324.0 / nozzle) + 8; } else { duration == ceil(324.0 / nozzle); }
+}
+"""
+
+
+@pytest.mark.parametrize(("most", "code"), [(73, 0), (72, 1)])
+def test_a_branch_that_other_flights_took_counts_with_all_that_its_lines_make_of_the_box(
+    most: int, code: int, tmp_path: Path
+) -> None:
+    # 324 / 5 + 8 = 73 ticks; flights of the one branch were counted with what they took alone.
+    asked_of_two_runs(tmp_path, f"one.duration <= {most}; two.duration <= {most};")
+    text = (tmp_path / "motor.nddl").read_text()
+    head, tail = text[: text.index("int LENGTH")], "Motor motor = new Motor(Internal);\nclose();\n"
+    (tmp_path / "motor.nddl").write_text(head + SNOW + tail)
+    mission = (tmp_path / "mission.toml").read_text().replace("final_tick = 60", "final_tick = 200")
+    mission = mission.replace("lookahead = 60", "lookahead = 200").partition("[parameters.LENGTH]")[0]
+    (tmp_path / "mission.toml").write_text(mission)
+    found = CliRunner().invoke(command, [str(tmp_path / "mission.toml"), "--format", "json"], standalone_mode=False)
+    assert found.exception is None, found.exception
+    (plan,) = json.loads(found.output)
+    assert [each["between"] for each in plan["durations"]] == [[47, 73], [47, 73]]
+    assert found.return_value == code
+
+
+def test_what_lasts_until_something_else_is_asked_for_is_no_duration_of_others(tmp_path: Path) -> None:
+    """Its owner has no rule for it: the one who asked ends it, by the next request."""
+    demand = "one.end + 5 <= two.start; two.start <= one.end + 5; contains(Motor.Still still); "
+    code, plan = asked_of_two_runs(tmp_path, f"{demand} one meets still; still meets two;")
+    assert [each["token"].partition("#")[0] for each in plan["durations"]] == ["Motor.Run", "Motor.Run"]
+    assert plan["dynamic"] and code == 0
