@@ -11,6 +11,7 @@ from runtime.executive.events import heads_of, single_events
 
 _GIVEN_UP = (GoalFate.LATE, GoalFate.REJECTED)
 HEAVY = 10.0  # damage of a mission that passes without a goal
+ALIKE = 1.0  # of each that the failed one had given up in the same way
 _COLLAPSED = 1.5  # of each of two predicates that hardly hold
 _LONG = 10  # ticks that are no moment
 _STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
@@ -41,6 +42,25 @@ def unknown_goals(failed: MissionResult, goals: Sequence[GoalConfiguration]) -> 
     optional = {number: goal for number, goal in enumerate(goals) if not goal.mandatory}
     later = {number for number, goal in optional.items() if goal.start is not None and goal.start[0] > last}
     return frozenset(optional.keys() & (given_up if len(optional) == len(goals) else given_up | later))
+
+
+def unkept_goals(passed: Sequence[MissionResult], goals: Sequence[GoalConfiguration]) -> frozenset[int]:
+    """Goals that no change loses: the mission file takes them back, or no mission that passed achieved them."""
+    taken_back = {number for number, goal in enumerate(goals) if goal.recall is not None}
+    kept = {one.number for each in passed for one in each.losses.goals if one.fate is GoalFate.ACHIEVED}
+    known = {one.number for each in passed for one in each.losses.goals}
+    return frozenset(taken_back | (known - kept))
+
+
+def lost_alike(result: MissionResult, failed: MissionResult, goals: Sequence[GoalConfiguration]) -> frozenset[int]:
+    """The optional goals that were given up at the same tick without the change: it does not cost them."""
+    before = {(one.number, one.fate, one.tick) for one in failed.losses.goals}
+    return frozenset(
+        one.number
+        for one in result.losses.goals
+        if one.fate in _GIVEN_UP and (one.number, one.fate, one.tick) in before
+        if one.number < len(goals) and not goals[one.number].mandatory
+    )
 
 
 def voided_of(result: MissionResult, failed: MissionResult) -> float:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from checker.batch.result import MissionResult
-from checker.counterfactual.damage import damage_of, unknown_goals
+from checker.counterfactual.damage import ALIKE, damage_of, lost_alike, unkept_goals, unknown_goals
 from runtime.executive.configuration import GoalConfiguration
 
 
@@ -26,7 +26,9 @@ class Missions:
 
     def damage_of(self, result: MissionResult, failed: MissionResult) -> float:
         """What a mission has lost that passes with a change, and failed without."""
-        return damage_of(result, self.is_cut, unknown_goals(failed, self.goals))
+        unknown = unknown_goals(failed, self.goals) | unkept_goals(self.passed, self.goals)
+        alike = lost_alike(result, failed, self.goals) - unknown
+        return damage_of(result, self.is_cut, unknown | alike) + ALIKE * len(alike)
 
     def is_patched(self, result: MissionResult) -> bool:
         """Whether a mission that passes needed repairs, where those that passed before needed none."""

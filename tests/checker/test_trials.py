@@ -9,7 +9,7 @@ import pytest
 
 from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import Candidate, Suspicion
-from checker.counterfactual.damage import HEAVY, collapsed_of, voided_of
+from checker.counterfactual.damage import ALIKE, HEAVY, collapsed_of, voided_of
 from checker.counterfactual.effort import Bounds
 from checker.counterfactual.missions import Missions
 from checker.counterfactual.smallness import cost_of, delay_of
@@ -212,3 +212,35 @@ def test_a_goal_weighs_that_the_failed_mission_might_have_achieved(
     ends = (GoalEnd(0, GoalFate.ACHIEVED, 60), GoalEnd(1, GoalFate.REJECTED, 98))
     mended = replace(result(1, Verdict.PASS), losses=Losses(goals=ends))
     assert Missions([failed], goals=goals).damage_of(mended, failed) == damage
+
+
+@pytest.mark.parametrize(
+    ("recall", "before", "passed", "damage"),
+    [
+        (None, (GoalFate.ACHIEVED, 90), (), HEAVY),
+        (300, (GoalFate.OPEN, 0), (), 0.0),  # the mission file takes it back
+        (None, (GoalFate.REJECTED, 98), (), ALIKE),  # without the change it is given up, too
+        (None, (GoalFate.REJECTED, 97), (), HEAVY),
+        (None, (GoalFate.ACHIEVED, 90), (GoalFate.LATE,), 0.0),  # what passed had lost it
+        (None, (GoalFate.ACHIEVED, 90), (GoalFate.LATE, GoalFate.ACHIEVED), HEAVY),
+    ],
+)
+def test_a_goal_weighs_that_would_be_achieved_without_the_change(
+    recall: int | None, before: tuple[GoalFate, int], passed: tuple[GoalFate, ...], damage: float
+) -> None:
+    """One optional goal that is always rejected, and one that the mission takes back, made the right line `evade`."""
+    goals = (
+        GoalConfiguration("job", "Do", start=(5.0, 40.0), mandatory=True),
+        GoalConfiguration("job", "Do", start=(5.0, 90.0), recall=recall),
+    )
+    ends = (GoalEnd(0, GoalFate.REJECTED, 60), GoalEnd(1, *before))
+    failed = replace(result(1, Verdict.FAIL), losses=Losses(goals=ends))
+    mended = replace(
+        result(1, Verdict.PASS),
+        losses=Losses(goals=(GoalEnd(0, GoalFate.ACHIEVED, 60), GoalEnd(1, GoalFate.REJECTED, 98))),
+    )
+    others = [
+        replace(result(2, Verdict.PASS), losses=Losses(goals=(GoalEnd(0, GoalFate.ACHIEVED, 50), GoalEnd(1, fate, 98))))
+        for fate in passed
+    ]
+    assert Missions([failed], others, goals=goals).damage_of(mended, failed) == damage
