@@ -238,7 +238,8 @@ def _parameters(findings: Findings) -> list[str]:
     for parameter in drawn:
         edges = [one for each in conditions for one in each.single if one.feature.parameters == (parameter.name,)]
         unique = list(dict.fromkeys(edges))
-        parts.append(f'<h3>{escape(parameter.name)}</h3><p class="soft">{escape(describe(parameter))}</p>')
+        told = describe(parameter) + ("; the value when a mission ended" if parameter.mode == "intra" else "")
+        parts.append(f'<h3>{escape(parameter.name)}</h3><p class="soft">{escape(told)}</p>')
         parts.append(strip_plot(parameter.name, by_name[parameter.name], (parameter.lower, parameter.upper), unique))
     first = [name for each in conditions for name in each.parameters]
     ranked = sorted(drawn, key=lambda one: (one.name not in first, first.index(one.name) if one.name in first else 0))
