@@ -10,6 +10,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from checker.judge.report import ResourceProfile
+from checker.sampling.rendering import number
+from compiler.program import TOKEN_TIMES
 from runtime.executive.columns import TokenColumns
 from runtime.executive.configuration import (
     AgentConfiguration,
@@ -23,6 +25,7 @@ from runtime.executive.outcome import Event, EventKind, PropertyFate
 from runtime.executive.record import MissionRecord, ReactorRecord, TokenRecord, ValueRange
 
 _ROUNDING = 1e-9
+_MOST_SHOWN = 4  # values of an argument
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +184,10 @@ def _fate(
             best = min(ends, default=math.inf)
             if best > last and not is_due:
                 return PropertyFate(one.name, True, None, math.inf)
-            return PropertyFate(one.name, best <= last, None if best <= last else min(last, last_tick), last - best)
+            if best <= last:
+                return PropertyFate(one.name, True, None, last - best)
+            seen = _seen_instead(pattern, held, first)
+            return PropertyFate(one.name, False, min(last, last_tick), last - best, seen=seen)
         case PropertyKind.LEVEL:
             raise AssertionError("levels are no tokens")
         case PropertyKind.ALWAYS:
@@ -211,6 +217,31 @@ def _fate(
     least = min((margin for _, margin in spans), default=math.inf)
     is_void = one.kind is PropertyKind.WITHIN and least == math.inf
     return PropertyFate(one.name, worst is None, None if worst is None else max(worst.start, first), least, is_void)
+
+
+def _seen_instead(pattern: TokenPattern, held: list[_Held], first: int) -> str:
+    """What came in place of what was to be reached: nothing of the kind, too late, or with other arguments."""
+    what = f"`{pattern.predicate}`" if pattern.predicate else "what matches"
+    alike = [token for token in held if token.start >= first and token.predicate == pattern.predicate]
+    if found := next((token for token in held if token.start >= first and _margin(pattern, token) >= 0.0), None):
+        over = "" if found.end == math.inf else f" and lasted until {found.end:g}"
+        return f"{what} began at {found.start}{over}"
+    if not alike or pattern.where:
+        return f"{what} never came on `{pattern.timeline}`" if not alike else ""
+    told = []
+    for name, wanted in pattern.parameters:
+        values = [token.arguments.get(name) for token in alike]
+        if name not in TOKEN_TIMES and all(_argument_margin(value, wanted) < 0.0 for value in values):
+            shown = list(dict.fromkeys("any value" if value is None else _shown(value) for value in values))
+            more = f" and {len(shown) - _MOST_SHOWN} more" if len(shown) > _MOST_SHOWN else ""
+            told.append(f"`{name}` {', '.join(shown[:_MOST_SHOWN])}{more}")
+    return f"{what} came with {' and '.join(told)}" if told else ""
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return number(value) if isinstance(value, int | float) else str(value)
 
 
 def _told_of(pattern: TokenPattern, held: list[_Held]) -> list[_Held]:

@@ -84,7 +84,8 @@ def failure_text(judgement: Judgement, open_goals: Sequence[OpenGoal] = (), refu
     `refusal` is the answer of an owner, as of which something was missed.
     """
     if judgement.broken is not None:
-        return f"the property `{judgement.broken.name}` is violated at tick {judgement.broken.tick}"
+        seen = f": {judgement.broken.seen}" if judgement.broken.seen else ""
+        return f"the property `{judgement.broken.name}` is violated at tick {judgement.broken.tick}{seen}"
     if judgement.exceeded is not None:
         return _exceeded_text(judgement.exceeded)
     if judgement.reason is None:

@@ -351,7 +351,8 @@ class PropertyFate:
     """Whether a property of the mission was kept; if not, the tick of its violation.
 
     `margin` is how far it was from being violated, infinite where no number decides. `is_void`: nothing that it
-    promises was due, as what that follows on never happened, or too late.
+    promises was due, as what that follows on never happened, or too late. `seen` says what came in place of what was
+    to be reached.
     """
 
     name: str
@@ -359,6 +360,7 @@ class PropertyFate:
     tick: int | None
     margin: float
     is_void: bool = False
+    seen: str = ""
 
 
 @dataclass(frozen=True, slots=True)
