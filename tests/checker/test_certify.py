@@ -69,7 +69,7 @@ def survey(folder: Path, text: str) -> Path:
 
 
 def test_flights_too_large_for_z3_refute_and_certify_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("checker.proofs.certify._MOST_TOKENS", 5)
+    monkeypatch.setattr("checker.proofs.certify.MOST_TOKENS", 5)
     assert certifier(MODELS / "gps" / "mission.toml").certify().certainty is Certainty.REFUTED
     mended = certifier(MODELS / "gps" / "mended.toml").certify()
     assert mended.certainty is Certainty.UNKNOWN
