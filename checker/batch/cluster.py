@@ -18,7 +18,7 @@ from distributed.scheduler import KilledWorker
 
 import runtime.build_form
 from checker.batch.pool import Batch, ClusterError, Supervisor
-from checker.batch.process import Flyer
+from checker.batch.process import GRACE, Flyer
 from checker.batch.result import MissionResult
 from checker.batch.signals import FirstSignals
 from checker.batch.worker import Load, Task, error_result
@@ -45,14 +45,19 @@ class Cluster:
             client = Client(self._address, timeout=_ANSWER)
         except (OSError, ValueError) as problem:
             raise ClusterError(self._address, str(problem)) from None
-        with contextlib.suppress(*_GONE), client, signals:
-            while batch.tasks and not supervisor.is_enough():
-                current = _Round(client, batch)
-                current.fly(supervisor, signals)
-                if signals.first is not None or current.is_lost:
-                    break
-                batch = replace(batch, tasks=batch.more())
-            client.run(_dismiss_all, on_error="ignore")
+        try:
+            with signals:
+                while batch.tasks and not supervisor.is_enough():
+                    current = _Round(client, batch)
+                    current.fly(supervisor, signals)
+                    if signals.first is not None or current.is_lost:
+                        break
+                    batch = replace(batch, tasks=batch.more())
+                with contextlib.suppress(*_GONE):
+                    client.run(_dismiss_all, on_error="ignore")
+        finally:
+            with contextlib.suppress(*_GONE):
+                client.close()
         return signals.first
 
 
@@ -103,7 +108,7 @@ class _Round:
                 supervisor.take(error_result(task, reason))
 
     def _time_allowed(self) -> float:
-        return self._batch.time_limit * (_LARGEST_CHUNK + 1)
+        return (self._batch.time_limit + GRACE) * (_LARGEST_CHUNK + 1)
 
     def _finished(self) -> list[Any]:
         try:
