@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import product
 from typing import NamedTuple
 
 from checker.judge.judge import judge_mission
@@ -115,6 +116,24 @@ def flown(
     )
     report = judge_mission(agent, programs, outcome, record, overrides=overrides)
     return Flown(agent, programs, outcome, record, report)
+
+
+def in_all_ways(
+    flyer: Flyer,
+    until: int,
+    goals: tuple[GoalConfiguration, ...],
+    parameters: tuple[ParameterConfiguration, ...],
+    seed: int,
+) -> Outcome:
+    """A mission by register code and by the general engine, each with and without every tick visited: all are equal."""
+    ways = [
+        flown(flyer, until=until, goals=goals, parameters=parameters, seed=seed, compiles=compiles, every_tick=every)
+        for compiles, every in product((True, False), (False, True))
+    ]
+    assert all(each.report.holds for each in ways)
+    told = [[line for line in lines(each.outcome) if " sample " not in line] for each in ways]
+    assert told[0] == told[1] == told[2] == told[3]
+    return ways[0].outcome
 
 
 def fly(

@@ -7,7 +7,7 @@ import pytest
 from runtime.executive.chance import sample
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
 from runtime.executive.outcome import EventKind, Outcome
-from tests.executive.flying import flown, fly, history, lines, planner, simulator
+from tests.executive.flying import flown, fly, history, in_all_ways, lines, planner, simulator
 
 SEA = """
 float SWELL = [0.0 1.0];
@@ -131,25 +131,10 @@ def done(tick: int, n: int, start: tuple[float, float], *full: bool) -> GoalConf
     return GoalConfiguration("arm", "Do", tick, False, start, parameters=(("n", n), *(("full", one) for one in full)))
 
 
-def in_all_ways(length: str, goals: tuple[GoalConfiguration, ...], seed: int, update: int = 3) -> Outcome:
-    """Forty ticks of the arm: by register code, by the general engine, and with every tick visited."""
-    text, load = ARM.replace("LENGTH", length), replace(LOAD, update=update)
-    ways = [
-        flown(
-            simulator("arm", text, "arm"),
-            until=40,
-            goals=goals,
-            parameters=(load,),
-            seed=seed,
-            compiles=compiles,
-            every_tick=every,
-        )
-        for compiles, every in ((True, False), (False, False), (True, True))
-    ]
-    assert all(each.report.holds for each in ways)
-    told = [[line for line in lines(each.outcome) if " sample " not in line] for each in ways]
-    assert told[0] == told[1] == told[2]
-    return ways[0].outcome
+def arm_in_all_ways(length: str, goals: tuple[GoalConfiguration, ...], seed: int, update: int = 3) -> Outcome:
+    """Forty ticks of the arm."""
+    text = ARM.replace("LENGTH", length)
+    return in_all_ways(simulator("arm", text, "arm"), 40, goals, (replace(LOAD, update=update),), seed)
 
 
 @pytest.mark.parametrize("is_busy", [False, True])
@@ -158,7 +143,7 @@ def test_what_is_drawn_at_the_first_tick_at_which_a_command_can_begin_decides(is
     free = 11 if is_busy else 3
     begun = 0
     for seed in range(9):
-        outcome = in_all_ways("10", goals, seed)
+        outcome = arm_in_all_ways("10", goals, seed)
         fits = sample(LOAD, seed, free).value <= 0.4
         found = [int(line.partition(" ")[0]) for line in history(outcome, "arm") if "n=2" in line]
         assert found == [free] * fits
@@ -203,21 +188,8 @@ def test_a_command_is_rejected_where_what_it_asks_for_may_not_begin_as_drawn() -
     load = replace(LOAD, update=4)
     seen = set()
     for seed in range(9):
-        ways = [
-            flown(
-                simulator("arm", text, "arm hand"),
-                until=40,
-                goals=(GoalConfiguration("arm", "Do", 2, False, (6.0, 30.0)),),
-                parameters=(load,),
-                seed=seed,
-                compiles=compiles,
-            )
-            for compiles in (True, False)
-        ]
-        assert all(each.report.holds for each in ways)
-        outcome = ways[0].outcome
-        assert lines(outcome, "reject") == lines(ways[1].outcome, "reject")
-        assert history(outcome, "hand") == history(ways[1].outcome, "hand")
+        goals = (GoalConfiguration("arm", "Do", 2, False, (6.0, 30.0)),)
+        outcome = in_all_ways(simulator("arm", text, "arm hand"), 40, goals, (load,), seed)
         fits = sample(load, seed, 6).value <= 0.4
         assert [line.partition(" ")[0] for line in lines(outcome, "reject")] == ([] if fits else ["6"])
         assert [line.partition(" ")[0] for line in history(outcome, "arm")] == (["0", "6", "11"] if fits else ["0"])
@@ -230,7 +202,7 @@ def test_what_is_drawn_for_a_command_that_waits_leaves_no_other_without_room() -
     goals = (done(0, 1, (1.0, 1.0)), done(2, 2, (3.0, 30.0)), done(4, 3, (5.0, 24.0)))
     begun = []
     for seed in range(9):
-        outcome = in_all_ways("floor(load * 20.0) + 1", goals, seed, 8)
+        outcome = arm_in_all_ways("floor(load * 20.0) + 1", goals, seed, 8)
         first_over = 2 + int(sample(replace(LOAD, update=8), seed, 1).value * 20.0)
         assert all(int(line.partition(" ")[0]) >= first_over for line in lines(outcome, "reject"))
         assert lines(outcome, "relax") == []

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
-from tests.executive.flying import flown, history, lines, simulator
+from tests.executive.flying import flown, history, in_all_ways, lines, simulator
 
 LOAD = ParameterConfiguration("LOAD", 0.0, 1.0, mode="intra", update=3)
 
@@ -150,24 +150,10 @@ def test_what_a_command_needs_is_found_when_it_begins_by_what_holds_then() -> No
     goals = tuple(GoalConfiguration("dome", "Expose", at, False, (at + 1.0, at + 90.0)) for at in (3, 12, 40))
     cover, begun = ParameterConfiguration("COVER", 0.0, 1.0, mode="intra", update=10), 0
     for seed in range(12):
-        ways = [
-            flown(
-                simulator("world", SKY, "dome sky"),
-                until=120,
-                goals=goals,
-                parameters=(cover,),
-                seed=seed,
-                compiles=compiles,
-                every_tick=every,
-            )
-            for compiles, every in ((True, False), (False, False), (False, True))
-        ]
-        assert all(each.report.holds for each in ways)
-        told = [[line for line in lines(each.outcome) if " sample " not in line] for each in ways]
-        assert told[0] == told[1] == told[2]
-        starts = [int(line.partition(" ")[0]) for line in history(ways[0].outcome, "dome")]
-        exposed = [int(line.partition(" ")[0]) for line in history(ways[0].outcome, "dome") if "Expose" in line]
-        skies = [line.split() for line in history(ways[0].outcome, "sky")]
+        outcome = in_all_ways(simulator("world", SKY, "dome sky"), 120, goals, (cover,), seed)
+        starts = [int(line.partition(" ")[0]) for line in history(outcome, "dome")]
+        exposed = [int(line.partition(" ")[0]) for line in history(outcome, "dome") if "Expose" in line]
+        skies = [line.split() for line in history(outcome, "sky")]
         for number, begin in enumerate(exposed[1:], 1):
             over = starts[starts.index(exposed[number - 1]) + 1]
             due = max(over, (4, 13, 41)[number])
