@@ -291,7 +291,7 @@ class Planner:
         log = SearchLog(self.bench, solver)
         solver.failure_log = log.log
         solver.refresh()
-        solver.solve(_MOST_EXPLAINED, _MOST_EXPLAINED, TIME_LIMIT.is_over)
+        solver.solve(_MOST_EXPLAINED, _MOST_EXPLAINED, log.is_enough)
         solver.undo_all()
         solver.failure_log = None
         solver.max_steps = solver.max_depth = _NO_LIMIT

@@ -26,6 +26,7 @@ from runtime.executive.outcome import (
 )
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST
 from runtime.executive.workbench import Workbench
+from runtime.limits import TIME_LIMIT
 from runtime.plan.readout.names import TokenName, VariableName
 from runtime.plan.readout.statements import Argument, ResourceTerm, Term
 from runtime.plan.readout.terms import TermReader
@@ -239,6 +240,10 @@ class SearchLog:
     def __init__(self, bench: Workbench, solver: Solver) -> None:
         self.reader = _ElementReader(bench)
         self.log = FailureLog(bench.database, solver.agenda, solver.stack, lambda: self.reader)
+
+    def is_enough(self) -> bool:
+        """Whether time is over and something was found: on a slow machine the first failure may take all of it."""
+        return self.log.count > 0 and TIME_LIMIT.is_over()
 
     def deadlock(self) -> Deadlock | None:
         """Why the search ended without a plan; None if it did not."""

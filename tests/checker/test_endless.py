@@ -1,16 +1,32 @@
 """A search without an end costs one mission its time, says where it was, and does not cost the whole batch."""
 
-from itertools import combinations
+from itertools import combinations, count
 from pathlib import Path
 
 import pytest
 
 from nddlc.main import run
+from runtime.executive.configuration import GoalConfiguration
+from runtime.limits import TIME_LIMIT, OutOfTimeError
+from tests.executive.flying import flown, planner
 
 pytestmark = pytest.mark.once
 
 HOLES = 10
 BIRDS = "abcdefghijk"
+RULE = " ".join(
+    [f"1 <= {bird}; {bird} <= {HOLES};" for bird in BIRDS]
+    + [f"{one} != {other};" for one, other in combinations(BIRDS, 2)]
+)
+MODEL = f"""
+class Job extends AgentTimeline {{
+    predicate Free {{ }} predicate Fill {{ {" ".join(f"int {bird};" for bird in BIRDS)} }}
+    Job(Mode m) {{ super(m, "Free"); }}
+}}
+Job::Fill {{ {RULE} }}
+Job job = new Job(Internal);
+close();
+"""
 MISSION = """
 [mission]
 name = "endless"
@@ -35,14 +51,7 @@ def test_a_batch_ends_where_no_mission_does_and_names_what_stands_in_the_way(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Eleven birds and ten holes, no two in one: whoever tries one after the other tries for days."""
-    bounds = [f"1 <= {bird}; {bird} <= {HOLES};" for bird in BIRDS]
-    rule = " ".join([*bounds, *(f"{one} != {other};" for one, other in combinations(BIRDS, 2))])
-    (tmp_path / "planner.nddl").write_text(
-        '#include "TREX.nddl"\nclass Job extends AgentTimeline { predicate Free { } predicate Fill { '
-        + " ".join(f"int {bird};" for bird in BIRDS)
-        + ' } Job(Mode m) { super(m, "Free"); } }\n'
-        + f"Job::Fill {{ {rule} }}\nJob job = new Job(Internal);\nclose();\n"
-    )
+    (tmp_path / "planner.nddl").write_text(f'#include "TREX.nddl"\n{MODEL}')
     (tmp_path / "mission.toml").write_text(MISSION)
     monkeypatch.chdir(tmp_path)
     assert run(["check", "--workers", "1"]) == 2
@@ -50,9 +59,20 @@ def test_a_batch_ends_where_no_mission_does_and_names_what_stands_in_the_way(
     assert "4 missions of 40 (none came to its end in time), 0 failed, 4 not flown to the end in time" in told
     assert "missions that took too long, counted nowhere: 4" in told and "and 1 more, see the report" in told
     assert "took longer than 2 s: `planner` found no end of its search at tick 0; `" in told
-    assert "!= " in told and "(planner.nddl:3) stands in the way in " in told
+    assert "!= " in told and "(planner.nddl:7) stands in the way in " in told
     assert "help: with `max_steps`" in told
     limit = MISSION.replace('internal = ["job"]', 'internal = ["job"]\nmax_steps = 300')
+    limit = limit.replace("time_limit = 2", "time_limit = 300")
     (tmp_path / "mission.toml").write_text(limit)
     assert run(["check", "--workers", "1", "--missions", "2", "--flights", "0"]) == 1
     assert "F10" in capsys.readouterr().out
+
+
+def test_a_failure_is_named_however_slow_the_machine_is() -> None:
+    """On a busy machine the time to look for what stands in the way was over before the first failure."""
+    slow, goal = count(0.0, 60.0), GoalConfiguration("job", "Fill", 0, True, (5.0, 20.0))
+    with (
+        pytest.raises(OutOfTimeError, match=r"stands in the way in \d of its first \d failures"),
+        TIME_LIMIT.lasting(100.0, lambda: next(slow)),
+    ):
+        flown(planner("planner", MODEL, "job"), until=60, goals=(goal,))
