@@ -16,7 +16,7 @@ from runtime.executive.record import ReactorRecord
 from runtime.executive.redrawing import draw_anew, leave_open
 from runtime.executive.repair import relax
 from runtime.executive.story import conflict_of, latest
-from runtime.executive.synchronise import synchronise
+from runtime.executive.synchronise import last_until, synchronise
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.told_on import watched_in, why_sent
 from runtime.executive.trace import Trace
@@ -200,7 +200,10 @@ class PlanReactor(TeleoReactor):
         )
 
     def _prepare(self, tick: int) -> SyncFailure | None:
-        """Draw anew what was drawn for a tick at which its token does not begin."""
+        """Let last what held while it slept; draw anew what was drawn for a tick at which its token does not begin."""
+        failure = last_until(self.bench, self.timelines, tick)
+        if failure is not None:
+            return failure
         if draw_anew(self.bench, self.draws, self.goals, tick):
             return None
         return SyncFailure("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))

@@ -10,10 +10,14 @@ cdef long long EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, NOTHING, SPAN_
 cdef long long SPAN_OBSERVATION, _EXTEND, _FACT, _FREE_TRIES, _MEET, _MOST_TRIES, _NEW, _NEXT
 
 
-@cython.locals(line=TimelineState, mark="long long", span="long long")
+@cython.locals(line=TimelineState, mark="long long")
 cpdef object synchronise(
     Workbench bench, Planner planner, list timelines, long long tick, long long final_tick, Dispatch asked
 )
+
+
+@cython.locals(line=TimelineState, mark="long long", span="long long", token="long long")
+cpdef object last_until(Workbench bench, list timelines, long long tick)
 
 
 @cython.locals(following="long long", line=TimelineState)

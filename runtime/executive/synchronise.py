@@ -41,12 +41,6 @@ def synchronise(
     The present token is kept as long as it may; but a token that somebody asked for starts as soon as it may, and so
     does any on a timeline that is early. `asked` tells what an owner will not do. On failure the caller rewinds.
     """
-    for line in timelines:
-        # While the reactor slept, what holds has gone on.
-        span = SPAN_EXECUTIVE if line.is_internal else SPAN_OBSERVATION
-        if line.current != NOTHING and not bench.at_least(bench.end(line.current), tick, span, line.current):
-            what = Reason(ReasonKind.CANNOT_GO_ON, bench.name_of(line.current), tick=tick)
-            return SyncFailure("F3" if line.is_internal else "F1", (line.name,), what, conflict_of(bench))
     if not bench.set_clock(tick):
         return SyncFailure("F3", (), Reason(ReasonKind.CLOCK, tick=tick), conflict_of(bench))
     failed = _persist(bench, timelines, tick, asked)
@@ -59,6 +53,27 @@ def synchronise(
     bench.rewind_to(mark)
     search = _Search(bench, planner, timelines, tick, final_tick, asked, True)
     return search.explained(search.run())
+
+
+def last_until(bench: Workbench, timelines: list[TimelineState], tick: int) -> SyncFailure | None:
+    """What holds has gone on while the reactor slept, to `tick`; on failure the plan stays as it was."""
+    mark = NOTHING
+    for line in timelines:
+        token = line.current
+        if token == NOTHING or bench.lower(bench.end(token)) >= tick:
+            continue
+        if mark == NOTHING:
+            mark = bench.mark()
+        span = SPAN_EXECUTIVE if line.is_internal else SPAN_OBSERVATION
+        if not bench.at_least(bench.end(token), tick, span, token):
+            what = Reason(ReasonKind.CANNOT_GO_ON, bench.name_of(token), tick=tick)
+            failure = SyncFailure("F3" if line.is_internal else "F1", (line.name,), what, conflict_of(bench))
+            bench.rewind_to(mark)
+            bench.commit()
+            return failure
+    if mark != NOTHING:
+        bench.commit()
+    return None
 
 
 def _persist(bench: Workbench, timelines: list[TimelineState], tick: int, asked: Dispatch) -> SyncFailure | None:

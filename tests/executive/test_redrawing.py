@@ -105,22 +105,9 @@ def test_a_command_that_is_drawn_for_anew_is_placed_behind_what_is_left_of_its_t
     begun, given_up = 0, 0
     for seed in range(6):
         for update in (1, 2, 5):
-            ways = [
-                flown(
-                    simulator("arm", text, "arm sky"),
-                    until=100,
-                    goals=goals,
-                    parameters=(replace(LOAD, update=update),),
-                    seed=seed,
-                    compiles=compiles,
-                    every_tick=every,
-                )
-                for compiles, every in ((True, False), (False, True))
-            ]
-            assert all(each.report.holds for each in ways)
-            assert history(ways[0].outcome, "arm") == history(ways[1].outcome, "arm")
-            begun += len([line for line in history(ways[0].outcome, "arm") if "Do(" in line])
-            given_up += len(lines(ways[0].outcome, "reject"))
+            outcome = in_all_ways(simulator("arm", text, "arm sky"), 100, goals, (replace(LOAD, update=update),), seed)
+            begun += len([line for line in history(outcome, "arm") if "Do(" in line])
+            given_up += len(lines(outcome, "reject"))
     assert begun and given_up
 
 
