@@ -8,6 +8,7 @@ import ast
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 from checker.judge.report import ResourceProfile
 from checker.sampling.rendering import number
@@ -22,10 +23,11 @@ from runtime.executive.configuration import (
 )
 from runtime.executive.expression import ExpressionError, parse_expression
 from runtime.executive.outcome import Event, EventKind, PropertyFate
-from runtime.executive.record import MissionRecord, ReactorRecord, TokenRecord, ValueRange
+from runtime.executive.record import MissionRecord, OpenValues, ReactorRecord, TokenRecord, ValueRange
 
 _ROUNDING = 1e-9
 _MOST_SHOWN = 4  # values of an argument
+_ORDERS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,13 +143,13 @@ def _published(timeline: str, events: Sequence[Event], last_tick: int) -> list[_
 
 
 def _given(event: Event) -> dict[str, object]:
-    """The arguments of what was published; those that are not one value are left out."""
+    """The arguments of what was published: values, and ranges of numbers; what is several names is left out."""
     given: dict[str, object] = {}
     for name, domain in event.arguments:
-        lower, upper = domain.interval or (0.0, 1.0)
-        if lower == upper:
-            given[name] = lower
-        elif domain.interval is None and domain.values is not None and len(domain.values) == 1:
+        if domain.interval is not None:
+            lower, upper = domain.interval
+            given[name] = lower if lower == upper else ValueRange(lower, upper)
+        elif domain.values is not None and len(domain.values) == 1:
             given[name] = domain.values[0]
     return given
 
@@ -216,7 +218,10 @@ def _fate(
     worst = next((token for token, margin in spans if margin < 0.0), None)
     least = min((margin for _, margin in spans), default=math.inf)
     is_void = one.kind is PropertyKind.WITHIN and least == math.inf
-    return PropertyFate(one.name, worst is None, None if worst is None else max(worst.start, first), least, is_void)
+    if worst is None:
+        return PropertyFate(one.name, True, None, least, is_void)
+    seen = _undecided(pattern, worst)
+    return PropertyFate(one.name, False, max(worst.start, first), least, is_void, seen=seen)
 
 
 def _seen_instead(pattern: TokenPattern, held: list[_Held], first: int) -> str:
@@ -232,15 +237,31 @@ def _seen_instead(pattern: TokenPattern, held: list[_Held], first: int) -> str:
     for name, wanted in pattern.parameters:
         values = [token.arguments.get(name) for token in alike]
         if name not in TOKEN_TIMES and all(_argument_margin(value, wanted) < 0.0 for value in values):
-            shown = list(dict.fromkeys("any value" if value is None else _shown(value) for value in values))
+            shown = list(dict.fromkeys(_shown(value) for value in values))
             more = f" and {len(shown) - _MOST_SHOWN} more" if len(shown) > _MOST_SHOWN else ""
             told.append(f"`{name}` {', '.join(shown[:_MOST_SHOWN])}{more}")
     return f"{what} came with {' and '.join(told)}" if told else ""
 
 
+def _undecided(pattern: TokenPattern, token: _Held) -> str:
+    """Which of the arguments that a promise is about were never decided, if any were."""
+    names = [name for name, _ in pattern.parameters]
+    names += parse_expression(pattern.where).names if pattern.where else ()
+    told = []
+    for name in dict.fromkeys(names):
+        value = token.arguments.get(name)
+        if name not in TOKEN_TIMES and (value is None or isinstance(value, ValueRange | OpenValues)):
+            told.append(f"`{name}` was never decided ({_shown(value)})")
+    return ", ".join(told)
+
+
 def _shown(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
+    if isinstance(value, ValueRange):
+        return f"{number(value.lower)} to {number(value.upper)}"
+    if value is None or isinstance(value, OpenValues):
+        return "any value"
     return number(value) if isinstance(value, int | float) else str(value)
 
 
@@ -283,9 +304,10 @@ def _margin_of(pattern: TokenPattern, token: _Held) -> float:
 
 def _argument_margin(value: object, wanted: object) -> float:
     if isinstance(wanted, tuple):
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            return -math.inf  # never decided: nothing is promised of it
-        return float(min(value - wanted[0], wanted[1] - value))
+        if isinstance(value, bool) or not isinstance(value, int | float | ValueRange):
+            return -math.inf
+        least, most = value if isinstance(value, ValueRange) else (value, value)  # all values of one never decided
+        return float(min(least - wanted[0], wanted[1] - most))
     if isinstance(wanted, int | float) and not isinstance(wanted, bool) and isinstance(value, int | float):
         return math.inf if value == wanted else -abs(float(value) - wanted)
     return math.inf if value == wanted else -math.inf
@@ -295,18 +317,28 @@ def _where_margin(text: str, token: _Held) -> float:
     expression = parse_expression(text)
     values = {name: token.arguments.get(name) for name in expression.names}
     given = {name: float(value) for name, value in values.items() if isinstance(value, int | float)}
-    if len(given) < len(values):
+    ranges = {name: value for name, value in values.items() if isinstance(value, ValueRange)}
+    if len(given) + len(ranges) < len(values):
         return -math.inf
-    return _condition_margin(expression.root, given)
+    return _condition_margin(expression.root, given, ranges)
 
 
-def _condition_margin(node: ast.expr, given: Mapping[str, float]) -> float:
-    """The margin of a condition: of an order the difference, of a conjunction the least, else all or nothing."""
+def _condition_margin(node: ast.expr, given: Mapping[str, float], ranges: Mapping[str, ValueRange]) -> float:
+    """The margin of a condition: of an order the difference, of a conjunction the least, else all or nothing.
+
+    Of arguments that were never decided it is the least one of all their values, as far as ends of ranges tell.
+    """
     match node:
         case ast.BoolOp(op=ast.And(), values=parts):
-            return min(_condition_margin(part, given) for part in parts)
+            return min(_condition_margin(part, given, ranges) for part in parts)
         case ast.BoolOp(op=ast.Or(), values=parts):
-            return max(_condition_margin(part, given) for part in parts)
+            return max(_condition_margin(part, given, ranges) for part in parts)
+        case _ if names := [name for name in ranges if name in _names(node)]:
+            is_order = isinstance(node, ast.Compare) and len(node.ops) == 1 and isinstance(node.ops[0], _ORDERS)
+            if not is_order or not _is_linear(node, names):
+                return -math.inf
+            ends = product(*(ranges[name] for name in names))
+            return min(_condition_margin(node, {**given, **dict(zip(names, each, strict=True))}, {}) for each in ends)
         case ast.Compare(left=left, ops=[ast.Lt() | ast.LtE() | ast.Gt() | ast.GtE() as op], comparators=[right]):
             less, more = (left, right) if isinstance(op, ast.Lt | ast.LtE) else (right, left)
             gap = _number(more, given) - _number(less, given)
@@ -316,6 +348,29 @@ def _condition_margin(node: ast.expr, given: Mapping[str, float]) -> float:
             return -1e-300 if gap == 0.0 and is_strict else gap
         case _:
             return math.inf if _number(node, given) else -math.inf
+
+
+def _names(node: ast.AST) -> set[str]:
+    return {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}
+
+
+def _is_linear(node: ast.AST, names: Sequence[str]) -> bool:
+    """Whether all is sums and multiples of `names`, so that what is least is so at ends of their ranges."""
+    if _names(node).isdisjoint(names):
+        return True
+    match node:
+        case ast.BinOp(left=left, op=ast.Mult(), right=right):
+            return any(
+                _names(one).isdisjoint(names) and _is_linear(other, names)
+                for one, other in ((left, right), (right, left))
+            )
+        case ast.BinOp(left=left, op=ast.Div(), right=right):
+            return _names(right).isdisjoint(names) and _is_linear(left, names)
+        case ast.Name():
+            return True
+        case ast.Compare() | ast.BinOp(op=ast.Add() | ast.Sub()) | ast.UnaryOp(op=ast.UAdd() | ast.USub()):
+            return all(_is_linear(each, names) for each in ast.iter_child_nodes(node) if isinstance(each, ast.expr))
+    return False
 
 
 def _number(node: ast.expr, given: Mapping[str, float]) -> float:

@@ -352,7 +352,7 @@ class PropertyFate:
 
     `margin` is how far it was from being violated, infinite where no number decides. `is_void`: nothing that it
     promises was due, as what that follows on never happened, or too late. `seen` says what came in place of what was
-    to be reached.
+    to be reached, or which argument was never decided.
     """
 
     name: str
