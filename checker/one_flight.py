@@ -1,8 +1,10 @@
 """One mission of a mission file: flown from a seed and given values, and its trace as text that is flown again."""
 
 import json
+import math
 import os
-from collections.abc import Mapping
+import time
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -14,11 +16,13 @@ from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Judgement, judge_within
 from checker.pinned import pinned
+from checker.real_time import RealTimeClock
 from nddl_lang.text.read import real_path
 from nddl_lang.text.values import json_value
 from runtime.executive.clocks import FastClock, LogClock
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import trace_json
+from runtime.limits import TIME_LIMIT
 
 _HEAD = "mission"  # the kind of the first line of a trace
 
@@ -47,16 +51,25 @@ class Flight:
     before: tuple[tuple[str, str, str], ...] = ()  # put before the mission: predicate, timeline, and who asked for it
 
 
-def fly(mission: Mission, models: ModelSet, settings: FlightSettings, clock: FastClock | None = None) -> Flight:
+def fly(
+    mission: Mission,
+    models: ModelSet,
+    settings: FlightSettings,
+    clock: FastClock | None = None,
+    now: Callable[[], float] = time.monotonic,
+) -> Flight:
     """Fly the mission once, by a clock, by the steps that another one counted, or by that of the mission file.
 
-    Where a sampler placed parameters, their values are part of the settings then.
+    In real time it takes its time; else it raises OutOfTimeError where a search goes on beyond the mission's limit, by
+    `now`, which is asked every few decisions. Where a sampler placed parameters, their values are settings then.
     """
     programs = pinned(models).programs_of(models.agent)
     logged = None if settings.steps is None else LogClock(dict(settings.steps))
-    outcome, record = fly_recorded(
-        models.agent, programs, settings.seed, dict(settings.values), settings.until, clock=clock or logged
-    )
+    limit = math.inf if isinstance(clock, RealTimeClock) else mission.check.time_limit
+    with TIME_LIMIT.lasting(limit, now):
+        outcome, record = fly_recorded(
+            models.agent, programs, settings.seed, dict(settings.values), settings.until, clock=clock or logged
+        )
     if clock is not None:
         settings = replace(settings, steps=tuple(sorted(clock.counts.items())))
     placed = {one.name for one in models.agent.parameters if one.share is not None}

@@ -2,6 +2,7 @@
 
 import re
 import sys
+import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
@@ -24,6 +25,7 @@ from nddlc.fitting import columns, say
 from nddlc.inputs import STORE, mission_here, write_text
 from nddlc.main import named
 from nddlc.one_mission import prepare, values_of
+from nddlc.seeking import BAR_SECONDS, LINE_SECONDS
 from nddlc.trust import trust_option
 from runtime.executive.clocks import clock_of
 from runtime.executive.configuration import AgentConfiguration
@@ -79,7 +81,8 @@ def command(
         clock = RealTimeClock(agent.tick, agent.clock.share, lambda tick: _progress(f"tick {tick} of {ends} ..."))
     else:
         _progress(f"flying {agent.name} ...")
-    flight = fly(mission, models, settings, clock if is_timed or log is not None else None)
+    now = time.monotonic if is_timed else _Watch(agent.name)
+    flight = fly(mission, models, settings, clock if is_timed or log is not None else None, now)
     _progress("")
     if log is not None:
         write_text(log, clock_log(clock, agent.tick))
@@ -89,6 +92,23 @@ def command(
     if isinstance(clock, RealTimeClock):
         say(f"  a tick of {agent.tick:g} s began {clock.latest:.3g} s late at most\n")
     return _PASS if flight.judgement.verdict is Verdict.PASS else _FAIL
+
+
+class _Watch:
+    """The time, in seconds; who asks often sees on standard error that a long flight goes on."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self._begun = self._told = time.monotonic()
+        self._is_terminal = sys.stderr.isatty()
+
+    def __call__(self) -> float:
+        now = time.monotonic()
+        if now - self._told >= (BAR_SECONDS if self._is_terminal else LINE_SECONDS):
+            self._told = now
+            text = f"flying {self._name}: {now - self._begun:.0f} s"
+            click.echo(f"\r\x1b[K{text}" if self._is_terminal else text, nl=not self._is_terminal, err=True)
+        return now
 
 
 def _progress(text: str) -> None:

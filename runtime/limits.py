@@ -22,6 +22,8 @@ class LimitError(RuntimeError):
 class OutOfTimeError(LimitError):
     """A mission has taken longer than it may, in the middle of a search of `planner`."""
 
+    advice = "with `max_steps` a reactor flies on after so many decisions a tick; `time_limit` stands in `[check]`"
+
     def __init__(self, text: str, planner: object = None) -> None:
         super().__init__(text)
         self.planner = planner

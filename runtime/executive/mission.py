@@ -123,20 +123,22 @@ def _flown(
     try:
         return agent.run(until), reactors
     except OutOfTimeError as problem:
-        raise OutOfTimeError(f"{problem}: {_endless(agent.tick, problem.planner)}") from problem
+        raise OutOfTimeError(f"{problem}: {_endless(agent.tick, problem.planner, reactors)}") from problem
     except LimitError as problem:
         raise LimitError(f"no end was found at tick {agent.tick}: {problem}{_most_planned(reactors)}") from problem
 
 
-def _endless(tick: int, planner: object) -> str:
-    """Who searches without an end, and what stands in the way most often."""
+def _endless(tick: int, planner: object, reactors: list[TeleoReactor]) -> str:
+    """Who searches without an end, and what stands in the way most often; where nothing does, what it plans most of."""
     assert isinstance(planner, Planner)
-    span, count, failures = planner.most_blamed()
+    planned = _most_planned([one for one in reactors if isinstance(one, PlanReactor) and one.planner is planner])
+    span, others, count, failures = planner.most_blamed()
     found = f"`{planner.bench.name}` found no end of its search at tick {tick}"
     if span is None:
-        return found
+        return found + planned
     line = " ".join(span.text.split())
-    often = f"`{line}` ({span.source.name}:{span.line}) stands in the way in {count} of its first {failures} failures"
+    more = f" and {others} more stand" if others else " stands"
+    often = f"`{line}` ({span.source.name}:{span.line}){more} in the way in {count} of its first {failures} failures"
     return f"{found}; {often}"
 
 

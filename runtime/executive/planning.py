@@ -313,8 +313,9 @@ class Planner:
         self.solver.solve(_NO_LIMIT, _NO_LIMIT, TIME_LIMIT.is_over)
         TIME_LIMIT.check(self)
 
-    def most_blamed(self) -> tuple[Span | None, int, int]:
-        """The line that stands in the way most often in the first decisions of the window, and in how many of them."""
+    def most_blamed(self) -> tuple[Span | None, int, int, int]:
+        """The line that stands in the way most often in the first decisions of the window, how many others do as often,
+        in how many failures, and of how many."""
         self.solver.undo_all()
         with TIME_LIMIT.lasting(_EXPLAINING):
             return self._logged().most_blamed()

@@ -249,12 +249,16 @@ class SearchLog:
         """Why the search ended without a plan; None if it did not."""
         return None if self.log.end is None else self._deadlock(self.log.end)
 
-    def most_blamed(self) -> tuple[Span | None, int, int]:
-        """The line that most of the failures name, None where none does; how many do, and how many there were."""
-        if not self.log.blamed:
-            return None, 0, self.log.count
-        (span, count), *_ = self.log.blamed.most_common(1)
-        return span, count, self.log.count
+    def most_blamed(self) -> tuple[Span | None, int, int, int]:
+        """The line that most of the failures name, None where none does, the first of those that as many name; how many
+        others these are, how many failures name it, and how many there were."""
+        blamed = self.log.blamed
+        if not blamed:
+            return None, 0, 0, self.log.count
+        most = max(blamed.values())
+        alike = [span for span, count in blamed.items() if count == most]
+        first = min(alike, key=lambda span: (span.source.name, span.line, span.column))
+        return first, len(alike) - 1, most, self.log.count
 
     def rejection(self, t: int) -> Deadlock | None:
         """Why the search rejected token `t`; None if it did not."""

@@ -19,6 +19,7 @@ cdef class Envelope:
     cdef public double amount
     cdef public long long[::1] marks, stack, via, takes, gives
     cdef public long long[::1] instants, from_taker, from_giver, queue
+    cdef public long long[::1] shut_givers, shut_takers
     cdef public long long[::1] ordered
     cdef public double[::1] supply, demand, flow
 
@@ -43,7 +44,7 @@ cdef class Envelope:
     @cython.locals(e="long long", top="long long", u="long long")
     cpdef int walk_back(self, long long v) except -1
 
-    cpdef double _given_back(self) except? -1.0
+    cpdef double _given_back(self, double enough) except? -1.0
 
     @cython.locals(first="long long", last="long long")
     cpdef double _augment(self, long long source) except? -1.0

@@ -6,6 +6,8 @@ maximum flow from takers to givers before them. Order is read off the STN: paths
 bounds.
 """
 
+from math import inf
+
 from runtime.constraints.domains.arrays import blank, grow_rows, lengthen
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, SIDE_LOWER, SIDE_UPPER
 from runtime.constraints.engine import Engine
@@ -41,6 +43,8 @@ class Envelope:
         self.from_taker = blank(_ROOM)
         self.from_giver = blank(_ROOM)
         self.queue = blank(_ROOM)
+        self.shut_givers = blank(_ROOM)  # whether nothing more gets through giver i, or through taker i
+        self.shut_takers = blank(_ROOM)
         self.flow = blank(_ROOM * _ROOM, "d")
         self.ordered = blank(_ROOM * _ROOM)  # [taker * use_room + giver]: the giver gives before the taker takes
 
@@ -79,7 +83,7 @@ class Envelope:
                     self.amount = profile.minimum - profile.best_for_consumers(self.at)
                 else:
                     self.amount = profile.worst_for_consumers(self.at) - profile.maximum
-                self.amount += self._given_back()
+                self.amount += self._given_back(inf)
                 if self.amount > FLOAT_TOLERANCE:
                     return True
         return False
@@ -111,7 +115,7 @@ class Envelope:
                 level = profile.worst_for_consumers(self.at) if is_low else profile.best_for_consumers(self.at)
                 self.amount = profile.minimum - level if is_low else level - profile.maximum
                 if self.amount > FLOAT_TOLERANCE:
-                    self.amount -= self._given_back()
+                    self.amount -= self._given_back(self.amount)
             if self.amount > FLOAT_TOLERANCE:
                 return True
         return False
@@ -168,7 +172,11 @@ class Envelope:
         """Make the arrays long enough for `n` uses and all variables."""
         if n > self.use_room:
             if n > len(self.takes):
-                lengthen(self, "takes gives instants supply demand from_taker from_giver queue", need=n)
+                lengthen(
+                    self,
+                    "takes gives instants supply demand from_taker from_giver queue shut_givers shut_takers",
+                    need=n,
+                )
             self.use_room = len(self.takes)
             if self.use_room * self.use_room > len(self.flow):
                 grow_rows(self, "flow ordered", self.use_room * self.use_room)
@@ -196,8 +204,11 @@ class Envelope:
 
     # ---- the envelope ----
 
-    def _given_back(self) -> float:
-        """How much of what may be taken at the instant must have been given back before: the greatest flow."""
+    def _given_back(self, enough: float) -> float:
+        """How much of what may be taken at the instant must have been given back before: the greatest flow.
+
+        It is sought no further where it is `enough`.
+        """
         profile = self.profile
         n = profile.count
         t = self.at
@@ -219,9 +230,12 @@ class Envelope:
             return 0.0
         for cell in range(n * self.use_room):
             self.flow[cell] = 0.0
+        for i in range(n):
+            self.shut_givers[i] = 0
+            self.shut_takers[i] = 0
         total = 0.0
         for j in range(n):
-            while self.supply[j] > FLOAT_TOLERANCE:
+            while self.supply[j] > FLOAT_TOLERANCE and total < enough:
                 pushed = self._augment(j)
                 if pushed <= 0.0:
                     break
@@ -241,17 +255,27 @@ class Envelope:
         while first < last:
             j = self.queue[first]
             first += 1
+            for i in range(n):  # what is joined at once is the shortest path
+                if self.demand[i] > FLOAT_TOLERANCE and self.ordered[j * self.use_room + i]:
+                    self.from_taker[i] = j
+                    return self.push(source, i)
             for i in range(n):
-                if self.from_taker[i] >= 0 or not self.ordered[j * self.use_room + i]:
+                if self.from_taker[i] >= 0 or self.shut_givers[i] or not self.ordered[j * self.use_room + i]:
                     continue
                 self.from_taker[i] = j
-                if self.demand[i] > FLOAT_TOLERANCE:
-                    return self.push(source, i)
                 for k in range(n):
-                    if self.from_giver[k] < 0 and self.flow[k * self.use_room + i] > FLOAT_TOLERANCE:
+                    if (
+                        self.from_giver[k] < 0
+                        and not self.shut_takers[k]
+                        and self.flow[k * self.use_room + i] > FLOAT_TOLERANCE
+                    ):
                         self.from_giver[k] = i
                         self.queue[last] = k
                         last += 1
+        # No later path leads on from what was reached here: none leaves it, and no demand is left in it.
+        for k in range(n):
+            self.shut_givers[k] = self.shut_givers[k] or self.from_taker[k] >= 0
+            self.shut_takers[k] = self.shut_takers[k] or self.from_giver[k] >= 0
         return 0.0
 
     def push(self, source: int, giver: int) -> float:
