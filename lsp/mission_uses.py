@@ -17,13 +17,12 @@ from lsp.occurrences import Occurrence, Role, Symbol
 from lsp.positions import Encoding, Lines
 from lsp.project import Project, Snapshot
 from lsp.references import Everywhere, Place, everywhere, located, symbol_declared_at
-from lsp.roots import files_below, folder_of
+from lsp.roots import MOST_FILES, files_below, folder_of
 from lsp.uris import key_of, uri_of
 from nddl_lang.text.read import read_text
 from nddl_lang.text.source import Span
 
 _LARGEST = 2**20  # bytes
-_MOST_KEPT = 256
 _REACTOR = "[[reactor]]"
 
 
@@ -62,8 +61,6 @@ def throughout(
         projects |= {project.key: project for project in here.projects}
         declared = {place for place, each in here.found.items() if each.role is Role.DECLARES}
         for mission in _missions(documents, missions, here):
-            if {project.key for project in here.projects}.isdisjoint(map(key_of, mission.models)):
-                continue
             alike = list(_dispatched(documents, mission, symbol.name))
             for use, things in _named_by(documents, mission, symbol.name):
                 alike.append(things)
@@ -126,18 +123,21 @@ def _place(snapshot: Snapshot, span: Span | None) -> Place | None:
 
 
 def _missions(documents: Documents, missions: MissionTexts, found: Everywhere) -> Iterator[OpenMission]:
-    """The open mission files, then those of the workspace and beside the models."""
+    """The mission files that run a model of these: the open ones, then those of the workspace and beside the models."""
+    keys = {project.key for project in found.projects}
     seen = set()
     for mission in missions.all():
         seen.add(key_of(mission.path))
-        yield mission
+        if not keys.isdisjoint(map(key_of, mission.models)):
+            yield mission
     beside = (folder for project in found.projects if (folder := folder_of(project.key)) is not None)
     for path in _candidates(dict.fromkeys((*documents.folders, *beside))):
-        if key_of(path) not in seen:
-            seen.add(key_of(path))
-            closed = _closed(path, documents.encoding)
-            if closed is not None:
-                yield closed
+        if key_of(path) in seen:
+            continue
+        seen.add(key_of(path))
+        runs_one = not keys.isdisjoint(map(key_of, _models_of(path)))
+        if runs_one and (closed := _read(path, documents.encoding)) is not None:
+            yield closed
 
 
 def _candidates(folders: Iterable[Path]) -> Iterator[Path]:
@@ -145,19 +145,26 @@ def _candidates(folders: Iterable[Path]) -> Iterator[Path]:
         yield from files_below(folder, ".toml")
 
 
-def _closed(path: Path, encoding: Encoding) -> OpenMission | None:
-    """The mission file at `path`; None where it is none, or cannot be read."""
+def _models_of(path: Path) -> tuple[Path, ...]:
+    """The models that the mission file at `path` runs; none of what is none, or cannot be read."""
     try:
         status = path.stat()
-        is_small = stat.S_ISREG(status.st_mode) and status.st_size <= _LARGEST
-        return _read(path, encoding, status.st_mtime_ns, status.st_size) if is_small else None
+    except (OSError, ValueError):
+        return ()
+    is_small = stat.S_ISREG(status.st_mode) and status.st_size <= _LARGEST
+    return _read_models(path, status.st_mtime_ns, status.st_size) if is_small else ()
+
+
+@lru_cache(4 * MOST_FILES)
+def _read_models(path: Path, changed: int, size: int) -> tuple[Path, ...]:
+    """The same as it was when the file was `changed` last and had that `size`."""
+    del changed, size
+    mission = _read(path, Encoding.UTF32)
+    return tuple(mission.models) if mission is not None and _REACTOR in mission.text else ()
+
+
+def _read(path: Path, encoding: Encoding) -> OpenMission | None:
+    try:
+        return OpenMission(uri_of(path), path, 0, Lines(read_text(path) or "", encoding))
     except (OSError, ValueError):
         return None
-
-
-@lru_cache(_MOST_KEPT)
-def _read(path: Path, encoding: Encoding, changed: int, size: int) -> OpenMission | None:
-    """The mission file as it was when it was `changed` last and had that `size`."""
-    del changed, size
-    text = read_text(path) or ""
-    return OpenMission(uri_of(path), path, 0, Lines(text, encoding)) if _REACTOR in text else None

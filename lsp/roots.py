@@ -13,7 +13,7 @@ from nddl_lang.text.read import read_text
 _INCLUDE = re.compile(r'^[ \t]*#include[ \t]*"([^"\n]+)"', re.MULTILINE)
 _SUFFIX = ".nddl"
 # Editors are opened on home directories too.
-_MOST_FILES = 1000
+MOST_FILES = 1000
 _MOST_ENTRIES = 20_000
 _LARGEST = 1_000_000
 
@@ -49,7 +49,7 @@ def models_below(folder: Path) -> Iterator[Path]:
 def files_below(folder: Path, suffix: str) -> Iterator[Path]:
     """The files with that suffix in `folder` and the folders below it, as of `models_below`."""
     pending, count, seen = [str(folder)], 0, 0
-    while pending and count < _MOST_FILES and seen < _MOST_ENTRIES:
+    while pending and count < MOST_FILES and seen < _MOST_ENTRIES:
         try:
             with os.scandir(pending.pop()) as entries:
                 found = sorted(islice(entries, _MOST_ENTRIES - seen), key=lambda entry: entry.name)
@@ -61,7 +61,7 @@ def files_below(folder: Path, suffix: str) -> Iterator[Path]:
                 continue
             if _is_folder(entry):
                 pending.append(entry.path)
-            elif entry.name.endswith(suffix) and count < _MOST_FILES:
+            elif entry.name.endswith(suffix) and count < MOST_FILES:
                 count += 1
                 yield Path(entry.path)
 
@@ -96,7 +96,7 @@ def _roots(target: str, files: Iterable[Path]) -> list[Path]:
 
 def _neighbours(directory: Path) -> Iterator[Path]:
     try:
-        entries = sorted(islice(directory.iterdir(), _MOST_FILES))
+        entries = sorted(islice(directory.iterdir(), MOST_FILES))
     except OSError:
         return
     yield from (entry for entry in entries if entry.suffix == _SUFFIX)
@@ -111,7 +111,7 @@ def _included(file: Path) -> tuple[str, ...]:
     return _read_includes(file, status.st_mtime_ns, status.st_size) if status.st_size <= _LARGEST else ()
 
 
-@lru_cache(4 * _MOST_FILES)
+@lru_cache(4 * MOST_FILES)
 def _read_includes(file: Path, changed: int, size: int) -> tuple[str, ...]:
     """What `file` included when it was `changed` last and had that `size`."""
     del changed, size

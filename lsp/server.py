@@ -2,6 +2,7 @@
 
 import asyncio
 import gc
+import linecache
 from contextlib import suppress
 from itertools import chain
 
@@ -31,6 +32,8 @@ def serve(session: Session, wire: Wire, begun: Begun) -> bool:
     """Serve until the editor leaves or is gone; whether it said goodbye first, as it should."""
     session.begin_answered(begun.greeting)
     session.protocol.set_writer(wire, include_headers=wire.has_headers)
+    linecache.clearcache()  # attrs leaves the text of every method there that it wrote
+    gc.collect()
     gc.freeze()  # what is loaded by now stays
     with suppress(KeyboardInterrupt, SystemExit):  # pygls ends the process after `exit`
         asyncio.run(pump(session, chain((begun.first,), begun.rest)))

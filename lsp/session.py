@@ -34,7 +34,7 @@ from lsp.semantic_tokens import TokenMemory
 from lsp.written_diagnostics import WrittenDiagnostics
 
 _logger = logging.getLogger(__name__)
-_MISTAKES_HELD = 100
+_MISTAKES_HELD = (100, 1000, 10_000)  # of each generation of the collector
 _OF_ANSWERS = ("result", "error")
 
 
@@ -60,6 +60,10 @@ class _Protocol(LanguageServerProtocol):
     lsp_text_document__did_open = None  # type: ignore[assignment]
     lsp_text_document__did_change = None  # type: ignore[assignment]
     lsp_text_document__did_close = None  # type: ignore[assignment]
+    # It would keep notebooks too, which nobody here reads.
+    lsp_notebook_document__did_open = None  # type: ignore[assignment]
+    lsp_notebook_document__did_change = None  # type: ignore[assignment]
+    lsp_notebook_document__did_close = None  # type: ignore[assignment]
 
     greeting: Greeting | None = None  # a request that is answered already
 
@@ -109,6 +113,23 @@ class _Protocol(LanguageServerProtocol):
                 self._send_response(data["id"], error=problem.to_response_error())
             raise
 
+    def _execute_handler(
+        self,
+        msg_id: int | str,
+        handler: Callable[..., Any],
+        callback: Callable[[Any], None],
+        args: tuple[Any, ...] | None = None,
+        kwargs: dict[str, Any] | None = None,
+    ) -> None:
+        """Carry out what a message asks for, and forget it then: pygls keeps the end of each notification for good."""
+
+        def end(future: Any) -> None:
+            if self._request_futures.get(msg_id) is future:
+                del self._request_futures[msg_id]
+            callback(future)
+
+        super()._execute_handler(msg_id, handler, end, args, kwargs)
+
     @lsp_method(types.WORKSPACE_EXECUTE_COMMAND)
     async def lsp_workspace__execute_command(self, params: types.ExecuteCommandParams) -> Any:  # type: ignore[override]
         """Carry out a command, which ends where its request is taken back: pygls would let it run on."""
@@ -152,8 +173,10 @@ class Session(LanguageServer):
     def report_server_error(self, error: Exception, source: Any) -> None:
         """Write to the log what went wrong; a box in front of the text would only be in the way."""
         self._mistakes += 1
-        if self._mistakes % _MISTAKES_HELD == 0:
-            gc.collect(0)  # an exception and the frames of its traceback hold each other, and the message with them
+        # An exception and the frames of its traceback hold each other, and the message with them.
+        due = [generation for generation, held in enumerate(_MISTAKES_HELD) if self._mistakes % held == 0]
+        if due:
+            gc.collect(due[-1])
         if isinstance(error, RequestFailed):
             return
         _logger.error("%s %s", error, getattr(error, "data", None) or "")  # pygls keeps the traceback of ours there

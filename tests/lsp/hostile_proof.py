@@ -21,7 +21,7 @@ from tests.lsp.hostile import MODEL, URI, URIS, Hostile, framed, message, writte
 
 _TURN = 40  # messages that are sent at once
 _PATIENCE = 60  # seconds for an answer
-_MOST = 100  # MB
+_MOST = 90  # MB
 _GROWTH = 1.1  # of the last quarter over the second one
 _SHOWN = 20
 

@@ -3,8 +3,10 @@
 `make editor-proof` sends 100,000 of them (`tests/lsp/hostile_proof.py`).
 """
 
+import asyncio
 import gc
 import json
+from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
 
@@ -110,3 +112,22 @@ def test_what_failed_is_not_held(wire: Any) -> None:
         assert gc.collect() < 10_000  # 41 objects of each that failed
     finally:
         gc.enable()
+
+
+def test_what_a_notification_asked_for_is_not_held(wire: Any) -> None:
+    wire.start()
+    notebook = {"uri": "file:///a.ipynb", "notebookType": "jupyter", "version": 1, "metadata": {}, "cells": []}
+    before = endings()
+    for _ in range(20):
+        wire.tell("$/setTrace", value="off")
+        wire.tell("workspace/didChangeWorkspaceFolders", event={"added": [], "removed": []})
+        wire.tell("workspace/didChangeWatchedFiles", changes=[])
+        wire.tell("notebookDocument/didOpen", notebookDocument=notebook, cellTextDocuments=[])
+        wire.tell("notebookDocument/didChange", notebookDocument={"uri": "file:///b", "version": 2}, change={})
+    assert endings() == before
+
+
+def endings() -> int:
+    """How many futures there are, which hold how something ended."""
+    gc.collect()
+    return sum(isinstance(each, (Future, asyncio.Future)) for each in gc.get_objects())
