@@ -206,7 +206,10 @@ def _answer_hierarchies(session: Session) -> None:
         lambda view, at, conversion: outgoing_calls(session.documents, view, at, conversion),
     )
     session.answer_item(types.TYPE_HIERARCHY_SUPERTYPES, supertypes)
-    session.answer_item(types.TYPE_HIERARCHY_SUBTYPES, subtypes)
+    session.answer_item(
+        types.TYPE_HIERARCHY_SUBTYPES,
+        lambda view, at, conversion: subtypes(session.documents, view, at, conversion),
+    )
 
 
 def _answer_completion(session: Session) -> None:

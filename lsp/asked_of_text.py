@@ -7,7 +7,7 @@ from lsprotocol import types
 from lsp.document_links import document_links
 from lsp.folding import folding_ranges, selection_ranges
 from lsp.inlay_hints import inlay_hints
-from lsp.lenses import code_lenses
+from lsp.lenses import code_lenses, counting
 from lsp.mending import can_fix_all, fix_all, formatting, formatting_of_lines, formatting_of_statement, mends
 from lsp.mission_answers import mission_lenses
 from lsp.mission_shape import mission_folds, mission_links
@@ -152,6 +152,18 @@ def _answer_shape(session: Session) -> None:
     session.answer(
         types.TEXT_DOCUMENT_CODE_LENS,
         lambda view, params: code_lenses(view),
+        types.CodeLensOptions(resolve_provider=True),
         nothing=list,
         of_mission=lambda mission, params: [] if session.is_distrusted else mission_lenses(mission),
     )
+
+    @session.feature(types.CODE_LENS_RESOLVE)
+    async def resolve(lens: types.CodeLens) -> types.CodeLens:
+        match lens.data:
+            case {"uri": str(uri), "command": str(command)}:
+                view = await session.view(uri)
+                if view is not None:
+                    lens.command = counting(session.documents, session.missions, view, lens.range.start, command)
+            case _:
+                pass
+        return lens

@@ -30,7 +30,7 @@ _OFFERED: dict[str, Any] = {
         "codeActionKinds": ["quickfix", "refactor", "refactor.extract", "source.fixAll.nddlc"],
         "resolveProvider": True,
     },
-    "codeLensProvider": {"resolveProvider": False},
+    "codeLensProvider": {"resolveProvider": True},
     "documentLinkProvider": {"resolveProvider": False},
     "workspaceSymbolProvider": {"resolveProvider": False},
     "documentFormattingProvider": True,

@@ -16,7 +16,7 @@ from lsp.documents import Documents
 from lsp.occurrences import Occurrence, Role, Symbol, SymbolType, symbol_of_class, symbol_of_predicate
 from lsp.open_text import DocumentContext
 from lsp.project import Snapshot
-from lsp.references import everywhere, occurrence_at
+from lsp.references import extending, models_sharing, occurrence_at
 from nddl_lang.semantics.schema import Class, Predicate
 from nddl_lang.syntax.nodes import Instance, RuleDecl
 from nddl_lang.syntax.walk import descendants
@@ -43,7 +43,7 @@ def incoming_calls(
     if here is None:
         return []
     found: dict[tuple[str, int], CallHierarchyIncomingCall] = {}
-    for snapshot in _snapshots(documents, view, here.symbol):
+    for snapshot in models_sharing(documents, view.snapshot, here.symbol):
         for rule in snapshot.analysis.tables.predicates:
             names = [name for name, target in _requests(snapshot, [rule]) if symbol_of_predicate(target) == here.symbol]
             if names:
@@ -63,7 +63,7 @@ def outgoing_calls(
         return []
     found: dict[tuple[str, int], tuple[CallHierarchyItem, list[Range]]] = {}
     own = _rule_at(view, here)
-    for snapshot in [view.snapshot] if own is not None else _snapshots(documents, view, here.symbol):
+    for snapshot in [view.snapshot] if own is not None else models_sharing(documents, view.snapshot, here.symbol):
         rules = [own] if own is not None else _rules_on(snapshot, here.symbol)
         for name, target in _requests(snapshot, rules):
             if (item := _call_item(target, conversion)) is not None:
@@ -74,12 +74,6 @@ def outgoing_calls(
                 if name.source is view.parse.source and place not in ranges:
                     ranges.append(place)
     return [CallHierarchyOutgoingCall(item, ranges) for item, ranges in found.values()]
-
-
-def _snapshots(documents: Documents, view: DocumentContext, symbol: Symbol) -> list[Snapshot]:
-    """The models that know a predicate."""
-    others = (project.snapshot for project in everywhere(documents, view.snapshot, symbol).projects)
-    return [view.snapshot, *(each for each in others if each is not view.snapshot)]
 
 
 def _rule_at(view: DocumentContext, here: Occurrence) -> RuleDecl | None:
@@ -138,10 +132,12 @@ def supertypes(view: DocumentContext, offset: int, conversion: Conversion) -> li
     return [item] if item is not None else []
 
 
-def subtypes(view: DocumentContext, offset: int, conversion: Conversion) -> list[TypeHierarchyItem]:
-    """The classes that extend the one at `offset`."""
+def subtypes(
+    documents: Documents, view: DocumentContext, offset: int, conversion: Conversion
+) -> list[TypeHierarchyItem]:
+    """The classes of all models that extend the one at `offset`."""
     owner = _class_at(view, offset)
-    found = [each for each in view.snapshot.analysis.schema.classes.values() if owner and each.base == owner.name]
+    found = extending(documents, view.snapshot, owner.name) if owner is not None else []
     return [item for each in found if (item := _type_item(each, conversion)) is not None]
 
 

@@ -7,7 +7,7 @@ from lsp.documents import Documents
 from lsp.meaning import Meaning, meaning_at
 from lsp.occurrences import Role, symbol_of_predicate
 from lsp.open_text import DocumentContext
-from lsp.references import everywhere, occurrence_at
+from lsp.references import everywhere, extending, occurrence_at
 from nddl_lang.analysis import Analysis
 from nddl_lang.semantics.schema import (
     Class,
@@ -77,35 +77,27 @@ def implementations(documents: Documents, view: DocumentContext, offset: int) ->
 
 
 def _implementations(documents: Documents, view: DocumentContext, meaning: Meaning) -> Iterator[Span]:
-    analysis = view.snapshot.analysis
     match meaning.thing:
         case Predicate() as predicate:
             yield from _rules_on(documents, view, predicate)
         case Label(predicate=predicate):
             yield from _rules_on(documents, view, predicate)
         case Class(name=name) | Constructor(class_name=name):
-            for owner in analysis.schema.classes.values():
-                if owner.base == name and owner.span is not None:
-                    yield owner.span
+            yield from (owner.span for owner in extending(documents, view.snapshot, name) if owner.span is not None)
         case TokenVariableReference() as variable if (found := parameter_of(variable)) is not None:
             yield from [found.span] if found.span is not None else []
         case _:
             pass
 
 
-def rules_of(view: DocumentContext, predicate: Predicate) -> list[Span]:
-    """The rules on a predicate and on what inherits or extends it."""
-    symbol = symbol_of_predicate(predicate)
-    return [each.span for each in view.snapshot.names.of(symbol) if each.role is Role.HAS_RULE]
-
-
 def _rules_on(documents: Documents, view: DocumentContext, predicate: Predicate) -> Iterator[Span]:
-    """The rules of this model, then those of other models that share the predicate."""
-    own = rules_of(view, predicate)
+    """The rules on a predicate and on what inherits or extends it: of this model, then of others that share it."""
+    symbol = symbol_of_predicate(predicate)
+    own = [each.span for each in view.snapshot.names.of(symbol) if each.role is Role.HAS_RULE]
     yield from own
     keys = view.snapshot.keys
     known = {(keys[each.source], each.begin) for each in own}
-    found = everywhere(documents, view.snapshot, symbol_of_predicate(predicate)).found
+    found = everywhere(documents, view.snapshot, symbol).found
     for (key, begin, _), each in found.items():
         if each.role is Role.HAS_RULE and (key, begin) not in known:
             yield each.span

@@ -7,9 +7,10 @@ from lsprotocol.types import DocumentHighlight, DocumentHighlightKind
 
 from lsp.documents import Documents
 from lsp.meaning import piece_at
-from lsp.occurrences import Occurrence, Role, Symbol
+from lsp.occurrences import Occurrence, Role, Symbol, symbol_of_class
 from lsp.open_text import DocumentContext
 from lsp.project import Project, Snapshot
+from nddl_lang.semantics.schema import Class
 
 # Where a name stands: the key of its file, and the offsets of its begin and end.
 Place = tuple[str, int, int]
@@ -50,6 +51,22 @@ def everywhere(documents: Documents, snapshot: Snapshot, symbol: Symbol) -> Ever
                 if each.role is Role.DECLARES:
                     pending.append(other)
     return Everywhere(dict(sorted(found.items())), tuple(projects.values()))
+
+
+def models_sharing(documents: Documents, snapshot: Snapshot, symbol: Symbol) -> list[Snapshot]:
+    """The models that know what `snapshot` knows by a symbol, that one first."""
+    others = (project.snapshot for project in everywhere(documents, snapshot, symbol).projects)
+    return [snapshot, *(each for each in others if each is not snapshot)]
+
+
+def extending(documents: Documents, snapshot: Snapshot, name: str) -> list[Class]:
+    """The classes of all models that extend the class of that name, each once."""
+    found: dict[Place, Class] = {}
+    for each in models_sharing(documents, snapshot, symbol_of_class(name)):
+        for owner in each.analysis.schema.classes.values():
+            if owner.base == name and (span := owner.span) is not None and span.source in each.keys:
+                found.setdefault((each.keys[span.source], span.begin, span.finish), owner)
+    return list(found.values())
 
 
 def symbol_declared_at(snapshot: Snapshot, place: Place) -> Symbol | None:

@@ -120,3 +120,38 @@ def test_calls_are_followed_from_model_to_model(client: Any, tmp_path: Path) -> 
     assert rule == "Ring::Build {"
     asked = client.ask("callHierarchy/outgoingCalls", item=call["from"])
     assert [len(each["fromRanges"]) for each in asked] == [1, 1, 1, 1]
+
+
+def test_a_lens_counts_what_its_list_shows_in_all_models_and_missions(client: Any, tmp_path: Path) -> None:
+    folder = tmp_path / "canal"
+    shutil.copytree(UNSEEN / "canal", folder)
+    client.start(folder=folder)
+    uri = (folder / "canal.nddl").as_uri()
+    client.open(uri, (folder / "canal.nddl").read_text())
+    counted = []
+    for lens in client.ask("textDocument/codeLens", textDocument={"uri": uri}):
+        command = client.ask("codeLens/resolve", **lens)["command"]
+        _, place = command["arguments"]
+        asked = "implementation" if command["title"].endswith(("rule", "rules")) else "references"
+        options = {"context": {"includeDeclaration": False}} if asked == "references" else {}
+        found = client.ask_at(asked, uri, place["line"], place["character"], **options)
+        assert int(command["title"].split()[0]) == len(found), command
+        counted.append((place["line"], asked, len(found)))
+    assert (28, "implementation", 1) in counted  # keeper.nddl has the rule on Lockage
+    assert (28, "references", 2) in counted  # which skipper.nddl asks for
+    assert (6, "references", 1) in counted  # Moored, the default of barges
+
+
+def test_a_class_that_another_model_extends_is_found(client: Any, tmp_path: Path) -> None:
+    (tmp_path / "base.nddl").write_text("class Lamp extends Timeline { predicate Lit { } }\n")
+    for name in "Red", "Green":
+        text = f'#include "base.nddl"\nclass {name} extends Lamp {{ }}\n{name} lamp = new {name}();\n'
+        (tmp_path / f"{name}.nddl").write_text(text)
+    client.start(folder=tmp_path)
+    uri = (tmp_path / "Red.nddl").as_uri()
+    client.open(uri, (tmp_path / "Red.nddl").read_text())
+    (item,) = client.ask_at("prepareTypeHierarchy", uri, 1, 20)
+    below = client.ask("typeHierarchy/subtypes", item=item)
+    assert sorted(each["name"] for each in below) == ["Green", "Red"]
+    found = client.ask_at("implementation", uri, 1, 20)
+    assert sorted(each["uri"].rpartition("/")[2] for each in found) == ["Green.nddl", "Red.nddl"]

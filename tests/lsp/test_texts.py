@@ -139,6 +139,7 @@ def test_an_include_is_a_link(opened: Any) -> None:
 def test_lenses_count_references_and_rules(opened: Any) -> None:
     client, uri = opened
     found = client.ask("textDocument/codeLens", textDocument={"uri": uri})
+    found = [client.ask("codeLens/resolve", **each) for each in found]
     titles = [(each["range"]["start"]["line"], each["command"]["title"]) for each in found]
     assert titles == [
         (5, "3 references"),
