@@ -278,9 +278,14 @@ def starting() -> tuple[float, float]:
 
 
 def used(process: int) -> float:
-    """Processor seconds of all threads of a process; 0 where the system does not tell."""
-    threads = Path(f"/proc/{process}/task").glob("*/schedstat")
-    return sum(int(each.read_text().split()[0]) for each in threads) / 1e9
+    """Processor seconds of all threads of a process and of those that it started; 0 where the system does not tell.
+
+    The server runs beside a process that watches it.
+    """
+    threads = [*Path(f"/proc/{process}/task").glob("*")]
+    started = [int(each) for thread in threads for each in (thread / "children").read_text().split()]
+    own = sum(int((thread / "schedstat").read_text().split()[0]) for thread in threads) / 1e9
+    return own + sum(map(used, started))
 
 
 if __name__ == "__main__":

@@ -52,7 +52,7 @@ def _answer_actions(session: Session) -> None:
         only = params.context.only
         found = [
             *mends(view, params.range, documents.conversion(), documents.folders),
-            *refactorings(view, params.range),
+            *refactorings(documents, view, params.range),
         ]
         if can_fix_all(view):
             title = "mend all that can be mended safely"

@@ -10,6 +10,7 @@ from lsp.meaning import around_at, piece_at
 from lsp.open_text import DocumentContext
 from nddl_lang.analysis import Analysis
 from nddl_lang.semantics.codes import DECLARED_BELOW, UNKNOWN_NAME, UNKNOWN_TOKEN_VARIABLE, WRONG_COUNT
+from nddl_lang.semantics.natives import builtin_names
 from nddl_lang.semantics.schema import Kind, Predicate, Type
 from nddl_lang.semantics.signature import ArgumentKind
 from nddl_lang.semantics.types import comparable, reference_type
@@ -20,11 +21,13 @@ from nddl_lang.syntax.nodes import (
     ClassDecl,
     ConstructorDecl,
     Expr,
+    Instance,
     MethodCall,
     PathExpr,
     PredicateDecl,
     RuleDecl,
 )
+from nddl_lang.syntax.walk import descendants
 from nddl_lang.syntax.words import RESERVED
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
@@ -72,7 +75,29 @@ def declarations(view: DocumentContext, diagnostic: Diagnostic, conversion: Conv
             owner = next((each for each in predicates if isinstance(each, Predicate) and each.span in places), None)
             yield from _parameter(complaint, owner, _type_beside(complaint))
         elif diagnostic.code is UNKNOWN_NAME:
-            yield from _named(complaint)
+            yield from _token(complaint) if _owned(complaint) is not None else _named(complaint)
+
+
+def _owned(complaint: _Complaint) -> str | None:
+    """The variable that is looked for in what the name stands for, as in `name.start`."""
+    path = next((node for node in complaint.around if isinstance(node, PathExpr)), None)
+    if path is None or len(path.parts) < 2 or path.parts[0].span.begin != complaint.span.begin:
+        return None
+    return path.parts[1].name
+
+
+def _token(complaint: _Complaint) -> Iterator[_Offer]:
+    """The name for a token of the same rule that has none yet, and has the variable that is looked for."""
+    rule = next((node for node in complaint.around if isinstance(node, RuleDecl)), None)
+    wanted = _owned(complaint)
+    for node in descendants(rule) if rule is not None and wanted is not None else ():
+        target = complaint.analysis.tables.targets.get(node) if isinstance(node, Instance) else None
+        if not isinstance(node, Instance) or node.name is not None or target is None:
+            continue
+        predicate = target.predicate
+        if wanted in (*builtin_names(predicate.is_event), *(each.name for each in predicate.parameters)):
+            edit = complaint.inserted(node.path.span, node.path.span.finish, f" {complaint.name}")
+            yield f"name the token of `{node.path.span.text}` `{complaint.name}`", edit
 
 
 def _named(complaint: _Complaint) -> Iterator[_Offer]:

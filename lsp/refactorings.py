@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from itertools import count
 from pathlib import Path
 
@@ -10,8 +10,11 @@ from lsprotocol.types import CodeAction, CodeActionKind, Range, TextEdit, Worksp
 
 from lsp.declarations import declarations, indent_of
 from lsp.diagnostics import Conversion
+from lsp.documents import Documents
 from lsp.meaning import around_at, piece_at
+from lsp.occurrences import symbol_of_predicate
 from lsp.open_text import DocumentContext
+from lsp.references import models_sharing
 from lsp.roots import models_below
 from lsp.uris import key_of
 from nddl_lang.semantics.codes import UNKNOWN_CLASS, UNKNOWN_NAME, UNKNOWN_PREDICATE, UNKNOWN_TYPE
@@ -27,11 +30,11 @@ _SCRIPT = re.compile(r"^\s*(?:goal|fact|rejectable)\s*\(|^\s*(?:\w+\s*\.\s*)?clo
 _DECLARED = r"^\s*(?:class|enum|typedef\b.*?|[A-Za-z_]\w*)\s+{name}\b"
 
 
-def refactorings(view: DocumentContext, place: Range) -> list[CodeAction]:
+def refactorings(documents: Documents, view: DocumentContext, place: Range) -> list[CodeAction]:
     """What may be done at `place` beside mending what is wrong there."""
     lines = view.document.lines
     begin, finish = lines.offset(place.start), lines.offset(place.end)
-    return [*_extractions(view, begin, finish), *_missing_rule(view, begin)]
+    return [*_extractions(view, begin, finish), *_missing_rule(documents, view, begin)]
 
 
 def additions(
@@ -41,7 +44,8 @@ def additions(
     if diagnostic.code is UNKNOWN_PREDICATE:
         yield from _missing_predicate(view, diagnostic, conversion)
     elif diagnostic.code in _MISSING:
-        yield from _missing_includes(view, diagnostic.span.text, folders)
+        offered = {edit.text for fix in diagnostic.fixes for edit in fix.edits}
+        yield from _missing_includes(view, diagnostic.span.text, folders, offered)
     yield from declarations(view, diagnostic, conversion)
 
 
@@ -93,7 +97,7 @@ def _fresh(view: DocumentContext, stem: str) -> str:
 # ---- what is missing is written ----
 
 
-def _missing_rule(view: DocumentContext, offset: int) -> Iterator[CodeAction]:
+def _missing_rule(documents: Documents, view: DocumentContext, offset: int) -> Iterator[CodeAction]:
     piece = piece_at(view.parse, offset)
     around = around_at(piece, offset) if piece is not None else ()
     node = next((each for each in around if isinstance(each, PredicateDecl)), None)
@@ -104,7 +108,8 @@ def _missing_rule(view: DocumentContext, offset: int) -> Iterator[CodeAction]:
     predicate = analysis.tables.declared.get(node.name)
     if not isinstance(predicate, Predicate) or any(
         each.class_name == predicate.class_name and each.name == predicate.name
-        for each in analysis.tables.predicates.values()
+        for model in models_sharing(documents, view.snapshot, symbol_of_predicate(predicate))
+        for each in model.analysis.tables.predicates.values()
     ):
         return
     at = owner.span.finish
@@ -147,8 +152,10 @@ def _missing_predicate(
     )
 
 
-def _missing_includes(view: DocumentContext, name: str, folders: Iterable[Path]) -> Iterator[tuple[str, WorkspaceEdit]]:
-    """Include a file of the workspace that declares the name."""
+def _missing_includes(
+    view: DocumentContext, name: str, folders: Iterable[Path], offered: Container[str]
+) -> Iterator[tuple[str, WorkspaceEdit]]:
+    """Include a file of the workspace that declares the name, unless that is offered already."""
     path = view.document.path
     if path is None or not name.isidentifier():
         return
@@ -165,7 +172,10 @@ def _missing_includes(view: DocumentContext, name: str, folders: Iterable[Path])
         # What states goals or closes classes is a model of its own, which nobody includes.
         if declared.search(text) and _SCRIPT.search(text) is None:
             relative = Path(os.path.relpath(file, path.parent)).as_posix()
-            edit = TextEdit(view.document.lines.range(at, at), f'#include "{relative}"\n')
+            written = f'#include "{relative}"\n'
+            if written in offered:
+                continue
+            edit = TextEdit(view.document.lines.range(at, at), written)
             yield f'include "{relative}", which declares `{name}`', WorkspaceEdit({view.document.uri: [edit]})
 
 

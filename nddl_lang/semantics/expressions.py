@@ -17,13 +17,13 @@ from nddl_lang.semantics.codes import (
 )
 from nddl_lang.semantics.constraints import Origin
 from nddl_lang.semantics.functions import OTHER_FUNCTIONS, FunctionRow, ResultKind
-from nddl_lang.semantics.literals import number, number_meant
+from nddl_lang.semantics.literals import number
+from nddl_lang.semantics.meant import number_meant, parameter_meant, relation_meant, value_meant, variable_meant
 from nddl_lang.semantics.names import name_beside, resolve_value, suggest_name
 from nddl_lang.semantics.natives import TIME_NAMES
 from nddl_lang.semantics.sampled import sampled_parameter
 from nddl_lang.semantics.schema import (
     Kind,
-    TokenReference,
     TokenVariableReference,
     Type,
 )
@@ -131,15 +131,6 @@ def _simple_type(context: Context, scope: Scope, expression: Expr, compared: str
     return type_
 
 
-def _order_of_tokens(context: Context, binary: BinaryExpr) -> str | None:
-    """How an order of two tokens is written; None where one is something else."""
-    sides = (binary.left, binary.right)
-    if not all(isinstance(context.tables.references.get(each), TokenReference) for each in sides):
-        return None
-    relation = "before" if binary.op[0] == "<" else "after"
-    return f"one token after the other is a relation: `{binary.left.span.text} {relation} {binary.right.span.text}`"
-
-
 def _binary_type(context: Context, binary: BinaryExpr, left: Type | None, right: Type | None) -> Type | None:
     op = binary.op
     if op in _EQUALITIES:
@@ -148,8 +139,9 @@ def _binary_type(context: Context, binary: BinaryExpr, left: Type | None, right:
     if op in _ORDERS:
         for side, type_ in ((binary.left, left), (binary.right, right)):
             if type_ is not None and type_.kind not in COUNTABLE:
-                help_ = _order_of_tokens(context, binary)
-                context.complain(NO_ORDER.at(side.span, op=op, text=side.span.text, found=phrase(type_), help=help_))
+                help_, fixes = relation_meant(context, binary)
+                text, found = side.span.text, phrase(type_)
+                context.complain(NO_ORDER.at(side.span, op=op, text=text, found=found, help=help_, fixes=fixes))
                 break
         return BOOL
     if op in _LOGIC:
@@ -168,7 +160,11 @@ def _check_equality(context: Context, binary: BinaryExpr, left: Type | None, rig
         fixes = tuple(
             fix
             for side, other in ((binary.left, right), (binary.right, left))
-            for fix in (*_parameter_meant(context, side, other), *number_meant(side, other))
+            for fix in (
+                *parameter_meant(context, side, other),
+                *number_meant(side, other),
+                *value_meant(context, side, other),
+            )
         )
         context.complain(
             (ALWAYS_DIFFERENT if differing else INCOMPARABLE).at(
@@ -183,20 +179,6 @@ def _check_equality(context: Context, binary: BinaryExpr, left: Type | None, rig
     for total, time in ((binary.left, binary.right), (binary.right, binary.left)):
         if _is_time(context, time) and _is_sum_of_times(context, total):
             context.complain(SUM_OF_TIMES.at(total.span, help="add a duration or a distance to a time instead"))
-
-
-def _parameter_meant(context: Context, token: Expr, other: Type) -> tuple[Fix, ...]:
-    """Where a token stands for its state: the one parameter of its predicate that may be equal to the other side."""
-    reference = context.tables.references.get(token)
-    if not isinstance(reference, TokenReference):
-        return ()
-    is_subclass = context.symbols.is_subclass
-    parameters = reference.label.predicate.parameters
-    names = [one.name for one in parameters if one.type is not None and comparable(one.type, other, is_subclass)]
-    if len(names) != 1:
-        return ()
-    text = f"{token.span.text}.{names[0]}"
-    return (Fix(f"write `{text}`", (Edit(token.span, text),), safe=False),)
 
 
 def _is_time(context: Context, expression: Expr) -> bool:
@@ -332,10 +314,11 @@ def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
             context.symbols.put_faulty("new")
             context.complain(UNKNOWN_FUNCTION.at(at, help=help_, fixes=(fix,), name=name))
             return None
-        meant = OTHER_FUNCTIONS.get(name)
+        meant, fixes = variable_meant(context, call)
+        meant = meant or OTHER_FUNCTIONS.get(name)
         if meant is None and name in context.callables.constraints:
             meant = f"`{name}` is a constraint: write it as a statement, `{name}(...);`"
-        complaint = UNKNOWN_FUNCTION.at(call.function.span, help=meant, name=name)
+        complaint = UNKNOWN_FUNCTION.at(call.function.span, help=meant, fixes=fixes, name=name)
         context.complain(suggest_name(complaint, call.function, context.callables.functions))
         return None
     _check_dialect(context, call, row)

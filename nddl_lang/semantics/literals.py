@@ -1,12 +1,7 @@
 """Read the numbers that an expression writes out."""
 
-import re
-
-from nddl_lang.semantics.schema import INFINITY, Kind, Type
-from nddl_lang.syntax.nodes import BinaryExpr, Expr, FloatLiteral, IntLiteral, StringLiteral, UnaryExpr
-from nddl_lang.text.diagnostic import Edit, Fix
-
-_QUOTED = {Kind.INT: re.compile(r"[-+]?\d+"), Kind.FLOAT: re.compile(r"[-+]?\d+(?:\.\d+)?")}
+from nddl_lang.semantics.schema import INFINITY
+from nddl_lang.syntax.nodes import BinaryExpr, Expr, FloatLiteral, IntLiteral, UnaryExpr
 
 
 def number(expression: Expr) -> float | int | None:
@@ -44,14 +39,6 @@ def _folded(op: str, left: float | int, right: float | int) -> float | int | Non
             return left / right
         case _:
             return None
-
-
-def number_meant(side: Expr, other: Type) -> tuple[Fix, ...]:
-    """A number in quotes without them, where it is compared with a number."""
-    pattern = _QUOTED.get(other.kind)
-    if not isinstance(side, StringLiteral) or pattern is None or pattern.fullmatch(side.value) is None:
-        return ()
-    return (Fix(f"write `{side.value}`", (Edit(side.span, side.value),), safe=False),)
 
 
 def is_infinite(expression: Expr) -> bool:

@@ -204,8 +204,10 @@ def find_predicate(context: Context, owner: Class, name: Identifier, *, is_bare:
     if found is None and not context.symbols.is_partial(owner.name) and not context.symbols.is_doubtful(name.name):
         notes = (Note(f"`{owner.name}` is declared here", owner.span),) if owner.span is not None else ()
         complaint = UNKNOWN_PREDICATE.at(name.span, notes=notes, owner=owner.name, name=name.name)
+        own = [*owner.predicates, *owner.inherited]
         others = [other for other in context.symbols.names("class") if _has_predicate(context, other, name.name)]
-        if others:
+        # Whose class is named has misspelt the predicate rather than the class.
+        if others and (is_bare or suggest_name(complaint, name, own) is complaint):
             help_ = (
                 "write " + " or ".join(f"`{other}.{name.name}`" for other in others[:3]) + " for that of another class"
             )
@@ -217,7 +219,7 @@ def find_predicate(context: Context, owner: Class, name: Identifier, *, is_bare:
             complaint = UNKNOWN_PREDICATE.at(
                 name.span, notes=notes, help=help_, fixes=fixes, owner=owner.name, name=name.name
             )
-        complaint = suggest_name(complaint, name, [*owner.predicates, *owner.inherited])
+        complaint = suggest_name(complaint, name, own)
         if is_bare and complaint.help is None:
             help_ = "the name of a token follows its predicate without a comma: `object.predicate name`"
             complaint = replace(complaint, help=help_)

@@ -8,6 +8,7 @@ from nddl_lang.syntax.builder import Builder
 from nddl_lang.syntax.tables import END
 from nddl_lang.syntax.words import BASE_TYPES, GOALS, RELATIONS, RESERVED
 from nddl_lang.text.diagnostic import Edit, Fix
+from nddl_lang.text.source import Span
 
 _MOST_WORDS = 40  # of a statement that are looked at
 _N = rf"(?!(?:{'|'.join(RESERVED - {'this', 'object'})})\b)[A-Za-z_$][\w$]*"
@@ -42,7 +43,7 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
     (r"return (.*);", "a statement says what holds: remove `return`", r"\1;"),
     # Words and signs of expressions.
     (r".*\S \* \* \S.*", "a power is the function `pow(a, b)`", ""),
-    (rf".* ({_PATH}|{_NUMBER}) x ({_PATH}|{_NUMBER})\b.*", r"a product is written `\1 * \2`", ""),
+    (rf"(.*) ({_PATH}|{_NUMBER}) x ({_PATH}|{_NUMBER})\b(.*)", r"a product is written `\2 * \3`", r"\1 \2 * \3\4"),
     (r".*\| (\S.*?) \|.*", r"write `abs(\1)`", ""),
     (rf".*\( {_TYPE} \) [\w(].*", "there are no casts: a float is rounded by `ceil(x)` or `floor(x)`", ""),
     (rf".*[^\w\s] {_TYPE} \(.*", "there are no casts: a float is rounded by `ceil(x)` or `floor(x)`", ""),
@@ -151,7 +152,14 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
     (rf"from ({_N}) import.*|import ({_N}) ;?", r'a file is included by `#include "\1\2.nddl"`', ""),
     (r'"" ".*', "a comment begins with `//`, one that editors show with `///`", ""),
     (r"close ;", "write `close();`", "close();"),
-    (r"otherwise \{", "write `else`", ""),
+    (r"otherwise \{", "write `else`", "else {"),
+    (r"(?:elif|elsif|elseif) \((.*)\) \{", "write `else if`", r"else if (\1) {"),
+    (rf"class ({_N}) ({_N}) \{{", r"write `class \1 extends \2`", r"class \1 extends \2 {"),
+    (
+        rf"({_TYPE} {_N} =) ([-+]?\d+) , (\d+) ;",
+        r"numbers have a decimal point: `\2.\3`",
+        r"\1 \2.\3;",
+    ),
     (rf"({_N} :: {_N}) ([^{{]*[^{{\w ][^{{]*) \{{", r"a rule is written `\1 { }`, without `\2`", ""),
     (r"((?:[-=:>] ?)+) \{", r"the braces stand right after what they belong to, without `\1`", ""),
 )
@@ -161,7 +169,7 @@ _TIDY = (
     (re.compile(r" ([;,)\]])"), r"\1"),
     (re.compile(r"([(\[]) "), r"\1"),
 )
-_CALL = re.compile(r"(\w) \(")
+_CALL = re.compile(r"(\w)(?<!\bif) \(")
 _PROSE = 4  # names in a row that are a sentence
 
 
@@ -191,14 +199,28 @@ def find_idiom(b: Builder, first: int, index: int, is_inside: bool) -> Idiom | N
         verb = "any" if is_inside else "goal"
         written = _tidied(token.expand(rf"{verb}(\1 \2);"))
         return Idiom(f"a token is asked for by name: `{written}`", _fix(b, first, last, written))
+    member = re.fullmatch(rf"({_N}) ({_N}) ([=!<>]=|[<>]) (.*) ;", text)
+    if member is not None and _is_token(b, first, member[1]):
+        written = _tidied(member.expand(r"\1.\2 \3 \4;"))
+        return Idiom(f"a parameter of a token stands behind a dot: `{written}`", _fix(b, first, last, written))
     if _is_prose(b, first, index):
-        return Idiom("a comment begins with `//`", None)
+        start = b.at(first).start
+        edit = Edit(Span(b.anchor, start, start), "// ")
+        fix = Fix("make it a comment", (edit,), safe=False) if first == 0 or _begins_line(b, first) else None
+        return Idiom("a comment begins with `//`", fix)
     for pattern, help_, written in _table():
         match = pattern.fullmatch(text)
         if match is not None:
-            fix = _fix(b, first, last, _tidied(match.expand(written))) if written and b.kinds[last] == ";" else None
+            fix = _fix(b, first, last, _tidied(match.expand(written))) if written and is_whole else None
             return Idiom(_tidied(match.expand(help_)), fix)
     return None
+
+
+def _is_token(b: Builder, first: int, name: str) -> bool:
+    """Whether a token is named so before the lexeme `first`, as in `any(Class.predicate name)`."""
+    return any(
+        b.texts[at] == name and b.kinds[at - 1] == "IDENT" and b.kinds[at + 1] == ")" for at in range(1, first - 1)
+    )
 
 
 def _is_prose(b: Builder, first: int, index: int) -> bool:

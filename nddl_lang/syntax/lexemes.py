@@ -21,6 +21,7 @@ from nddl_lang.text.nearest import nearest
 # Infinity of EUROPA on a machine with 64 bits.
 INFINITY = 2**52 - 1
 
+_MEASURED = re.compile(r"([+-]?(?:0|[1-9][0-9]{0,8})(?:\.[0-9]{1,9})?)[A-Za-z]{1,9}")
 _INTEGER = re.compile(r"[+-]?(?:0|[1-9][0-9]*)[lL]?")
 _REAL = re.compile(
     r"[+-]?[0-9]+(?:\.[0-9]*(?:[eE][+-]?[0-9]+)?[fFdD]?|[eE][+-]?[0-9]+[fFdD]?|[fFdD])"
@@ -102,12 +103,16 @@ def read_number(piece: Piece, start: int, word: str, strict: bool) -> str:
         fix = Fix(f"write `{value}`", (Edit(piece.span(start, end), value),))
         piece.report(FORMER_NUMBER, start, end, help=f"write `{value}`", fixes=(fix,))
     else:
-        help_text = None
+        help_text: str | None = None
+        fixes: tuple[Fix, ...] = ()
         if ".." in word:
             help_text = "an interval is written `[1 5]`"
         elif word.strip("+-").isdecimal():
             help_text = f"write `{excerpt(word.lstrip('+-').lstrip('0'))}`: numbers have no leading zeros"
-        piece.report(MALFORMED_NUMBER, start, end, text=excerpt(word), help=help_text)
+        elif (measured := _MEASURED.fullmatch(word)) is not None:
+            help_text = f"a number has no unit: write `{measured[1]}`"
+            fixes = (Fix(f"write `{measured[1]}`", (Edit(piece.span(start, end), measured[1]),), safe=False),)
+        piece.report(MALFORMED_NUMBER, start, end, text=excerpt(word), help=help_text, fixes=fixes)
     return "INT"
 
 

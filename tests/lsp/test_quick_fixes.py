@@ -1,5 +1,6 @@
 """A model with five mistakes is repaired by quick fixes alone, as somebody would who is new to NDDL."""
 
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -179,13 +180,77 @@ MODELS: dict[str, tuple[str, *tuple[tuple[str, ...], ...]]] = {
     ),
 }
 
+# Mistakes in models that nddlc was not made with, in a file among those that it includes.
+UNSEEN: dict[str, list[tuple[str, ...]]] = {
+    "bakery/baker.nddl": [
+        ("contains(Oven.Heat heat);", "contains(Oven.Heat heat)"),
+        ("loaf == Loaf.white", "loaf == Loaf.White"),
+        ("trays == ceil(kilos / TRAY);", "trays == Math.ceil(kilos / TRAY);"),
+        ("knead before prove;", "knead.before(prove);"),
+        ("bake.start >= prove.end + 20;", "bake.start > = prove.end + 20;"),
+        ("int LOOKS = 6;", "int LOOKS == 6;"),
+        ("Oven oven = new Oven(External);", "Oven oven = Oven(External);"),
+        ("use.quantity == FLOUR_SHARE", "use.amount == FLOUR_SHARE"),
+    ],
+    "tram/driver.nddl": [
+        ("contains(Points.Switch set);", "contains(Points.switch set);"),
+        ("set.to == to;", "set to == to;"),
+        ("if (to == Stop.market) {", "if to == Stop.market {"),
+        ("set before run;", "set < run;"),
+        ("float TO_DEPOT = 6.5;", "float TO_DEPOT = 6,5;"),
+        ("open.duration <= DOORS_MAX;", "duration(open) <= DOORS_MAX;"),
+        ("new Leg(Internal);", "new Leg(internal);"),
+        ('#include "tram.nddl"', '#include "trams.nddl"'),
+    ],
+    "ward/nurse.nddl": [
+        ("class Care extends AgentTimeline {", "class Care AgentTimeline {"),
+        ("dose == DOSE_PER_KG * weight;", "dose == DOSE_PER_KG x weight;"),
+        ("} else {", "} otherwise {"),
+        ("treat meets watch;", "treat meet watch;"),
+        ("prepare.route == Route.drip;", 'prepare.route == "drip";'),
+        ("any(Reservoir.consume use);", "any(Reservoir.consumes use);"),
+    ],
+    "cave/pilot.nddl": [
+        ("light.start + 2 <= go.start;", "light.start + 2s <= go.start;"),
+        ("contains(lamp.On light);", "contains(lamp.On);"),
+        ("light meets off;", "meets(light, off);"),
+        ("contains(Robot.Return back);", "contains(Return back);"),
+        ("Battery::Low {", "Batery::Low {"),
+        ("predicate Reach { int crumb;", "predicate Reach { integer crumb;"),
+        ("duration <= FIX_TICKS; }", "duration <= FIX_TICKS }"),
+    ],
+    "glider/captain.nddl": [
+        ("use.quantity == depth * METRE_COST", "use.quantity = depth * METRE_COST"),
+        ("Task::Report {", "Task::Reprot {"),
+        ("Modem modem = new Modem(External);", "Modem modem = new Modem(External)"),
+        ("new Sky(Observe);", "new Sky(Observed);"),
+        ("// Data go out while", "Data go out while"),
+        ("contains(Hull.Climb climb);", "contains(Hull.Climb, climb);"),
+    ],
+}
+
+
+@pytest.mark.parametrize("name", UNSEEN)
+def test_mistakes_in_a_model_of_many_files_are_mended_by_quick_fixes_only(
+    client: Any, tmp_path: Path, name: str
+) -> None:
+    folder = name.partition("/")[0]
+    shutil.copytree(ROOT / "tests" / "checker" / "unseen" / folder, tmp_path / folder)
+    path = tmp_path / name
+    mend(client, path, path.read_text(), UNSEEN[name])
+
 
 @pytest.mark.parametrize("name", MODELS)
 def test_five_mistakes_are_mended_by_quick_fixes_only(client: Any, tmp_path: Path, name: str) -> None:
     right, *mistakes = MODELS[name]
+    mend(client, tmp_path / "model.nddl", right, mistakes)
+
+
+def mend(client: Any, path: Path, right: str, mistakes: list[tuple[str, ...]]) -> None:
+    """Take the first fix of the first error, again and again, until the text is as it was."""
     text = broken(right, *mistakes)
-    client.start(folder=tmp_path)
-    uri = (tmp_path / "model.nddl").as_uri()
+    client.start(folder=path.parent)
+    uri = path.as_uri()
     told = client.open(uri, text)["diagnostics"]
     fixes = 0
     while errors := [each for each in told if each["severity"] == ERROR]:

@@ -209,6 +209,16 @@ def test_what_is_missing_is_added(opened: Any) -> None:
     assert [each["code"] for each in client.change(uri, {"text": text})["diagnostics"] if each["severity"] == 1] == []
 
 
+def test_an_include_is_offered_once(opened: Any, tmp_path: Path) -> None:
+    client, uri = opened
+    (tmp_path / "base.nddl").write_text(BASE + "enum Mode { Slow, Fast }\n")
+    text = MODEL.replace('#include "base.nddl"\n', "") + "Part part = new Part(3);\nMode mode = Slow;\n"
+    (error, *_) = client.change(uri, {"text": text})["diagnostics"]
+    assert "which is not included" in error["message"]
+    titles = actions(client, uri, error["range"]["start"]["line"], error["range"]["start"]["character"], "quickfix")
+    assert [each for each in titles if "include" in each] == ['add `#include "base.nddl"` (check the meaning)']
+
+
 MISTAKES = """\
 class C { private int x; C() { x = 1; } }
 int y = 3.0;

@@ -1,0 +1,67 @@
+"""What was meant by an expression that does not fit: an expression in; help, and fixes to be looked at, out."""
+
+import re
+
+from nddl_lang.semantics.natives import builtin_type
+from nddl_lang.semantics.schema import Kind, TokenReference, Type
+from nddl_lang.semantics.scope import Context
+from nddl_lang.semantics.types import comparable
+from nddl_lang.syntax.nodes import BinaryExpr, CallExpr, Expr, StringLiteral
+from nddl_lang.text.diagnostic import Edit, Fix
+
+_QUOTED = {Kind.INT: re.compile(r"[-+]?\d+"), Kind.FLOAT: re.compile(r"[-+]?\d+(?:\.\d+)?")}
+
+
+def relation_meant(context: Context, binary: BinaryExpr) -> tuple[str | None, tuple[Fix, ...]]:
+    """How an order of two tokens is written; nothing where one is something else."""
+    sides = (binary.left, binary.right)
+    if not all(isinstance(context.tables.references.get(each), TokenReference) for each in sides):
+        return None, ()
+    relation = "before" if binary.op[0] == "<" else "after"
+    written = f"{binary.left.span.text} {relation} {binary.right.span.text}"
+    fix = Fix(f"write `{written}`", (Edit(binary.span, written),), safe=False)
+    return f"one token after the other is a relation: `{written}`", (fix,)
+
+
+def parameter_meant(context: Context, token: Expr, other: Type) -> tuple[Fix, ...]:
+    """Where a token stands for its state: the one parameter of its predicate that may be equal to the other side."""
+    reference = context.tables.references.get(token)
+    if not isinstance(reference, TokenReference):
+        return ()
+    is_subclass = context.symbols.is_subclass
+    parameters = reference.label.predicate.parameters
+    names = [one.name for one in parameters if one.type is not None and comparable(one.type, other, is_subclass)]
+    if len(names) != 1:
+        return ()
+    text = f"{token.span.text}.{names[0]}"
+    return (Fix(f"write `{text}`", (Edit(token.span, text),), safe=False),)
+
+
+def number_meant(side: Expr, other: Type) -> tuple[Fix, ...]:
+    """A number in quotes without them, where it is compared with a number."""
+    pattern = _QUOTED.get(other.kind)
+    if not isinstance(side, StringLiteral) or pattern is None or pattern.fullmatch(side.value) is None:
+        return ()
+    return (Fix(f"write `{side.value}`", (Edit(side.span, side.value),), safe=False),)
+
+
+def value_meant(context: Context, side: Expr, other: Type) -> tuple[Fix, ...]:
+    """A value of an enum in quotes without them, where it is compared with that enum."""
+    enum = context.symbols.find_enum(other.base) if isinstance(side, StringLiteral) else None
+    if enum is None or not isinstance(side, StringLiteral) or side.value not in enum.values:
+        return ()
+    text = f"{enum.name}.{side.value}"
+    return (Fix(f"write `{text}`", (Edit(side.span, text),), safe=False),)
+
+
+def variable_meant(context: Context, call: CallExpr) -> tuple[str | None, tuple[Fix, ...]]:
+    """How a variable of a token is written, where it is called like a function: `duration(a)`; else nothing."""
+    argument = call.arguments[0] if len(call.arguments) == 1 else None
+    reference = context.tables.references.get(argument) if argument is not None else None
+    if argument is None or not isinstance(reference, TokenReference):
+        return None, ()
+    name, predicate = call.function.name, reference.label.predicate
+    if builtin_type(name, predicate) is None and all(name != each.name for each in predicate.parameters):
+        return None, ()
+    text = f"{argument.span.text}.{name}"
+    return f"write `{text}`", (Fix(f"write `{text}`", (Edit(call.span, text),), safe=False),)
