@@ -4,6 +4,7 @@ import { ColorThemeKind, commands, type Disposable, Range, Uri, ViewColumn, type
 const POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 const OPEN = "nddlc.openPlace";
 const PLACE = /<span class="at" data-file="([^"]*)" data-line="(\d+)">([^<]*)<\/span>/g;
+const SHOWN = /^([ \t]*--> )([^\n]+?):(\d+)/gm; // a place in the text of a command
 const LOOK =
   "<style>html { background: var(--vscode-editor-background); } pre a.at { color: var(--vscode-textLink-foreground); }</style>";
 
@@ -32,9 +33,11 @@ export function showPage(title: string, html: string, folder: Uri): void {
 }
 
 export function showText(title: string, text: string, folder: Uri): void {
-  const escaped = text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
+  const escaped = text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll('"', "&quot;");
+  const marked = escaped.replace(SHOWN, (_, arrow: string, file: string, line: string) =>
+    `${arrow}<span class="at" data-file="${file}" data-line="${line}">${file}:${line}</span>`);
   const style = "pre { white-space: pre-wrap; overflow-wrap: anywhere; font-family: var(--vscode-editor-font-family); }";
-  showPage(title, `<!DOCTYPE html><html><head><style>${style}</style></head><body><pre>${escaped}</pre></body></html>`, folder);
+  showPage(title, `<!DOCTYPE html><html><head><style>${style}</style></head><body><pre>${marked}</pre></body></html>`, folder);
 }
 
 function makePanel(title: string): WebviewPanel {

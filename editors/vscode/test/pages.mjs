@@ -43,6 +43,10 @@ try {
 
   showText("Failure", "a < b & <script>", Uri.file("/work"));
   assert.match(shown.get("Failure").webview.html, /a &lt; b &amp; &lt;script>/);
+  showText("Failure", '  --> gps/"a".nddl:7\n   7 | int x;\n', Uri.file("/work"));
+  const [, link, shownPlace] = shown.get("Failure").webview.html.match(/href="command:[\w.]+\?([^"]+)">([^<]*)</);
+  assert.equal(shownPlace, "gps/&quot;a&quot;.nddl:7");
+  assert.deepEqual(JSON.parse(decodeURIComponent(link)), ["file:///work", 'gps/"a".nddl', 7]);
   console.log("pages follow the theme and lead to their lines");
 } finally {
   rmSync(made, { recursive: true });
