@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from checker.codes import NO_ARGUMENT, NO_OWNER, NO_PREDICATE
 from checker.mission_table import MissionText, Table
 from checker.named_objects import named_objects
+from checker.respelt import respelt
 from compiler.program import PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
@@ -52,7 +53,7 @@ def read_figures(table: Table, owned: tuple[str, ...]) -> Figures | None:
             close = nearest(timeline, owned)
             advice = f"did you mean `{close}`?" if close else "owned timelines: " + ", ".join(owned)
             span = table.text.value_span((*table.path, key))
-            table.text.diagnostics.append(NO_OWNER.at(span, timeline=timeline, help=advice))
+            table.text.diagnostics.append(respelt(NO_OWNER.at(span, timeline=timeline, help=advice), timeline, owned))
     table.close()
     return found
 

@@ -22,6 +22,7 @@ class Strange:
 
     wanted: str
     advice: str | None = None
+    meant: str | None = None  # of the names that there are, the one that it resembles
 
 
 # ---- time ----
@@ -130,7 +131,7 @@ def _strange_name(value: Value | Bounds, known: list[str] | None, what: str) -> 
     if known is None or value in known:
         return None
     close = nearest(value, known)
-    return Strange(what, f"did you mean `{close}`?" if close else f"there are: {listed or 'none'}")
+    return Strange(what, f"did you mean `{close}`?" if close else f"there are: {listed or 'none'}", close)
 
 
 def _allowed(known: list[str], domains: list[DomainConstant]) -> list[str]:

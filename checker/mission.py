@@ -23,6 +23,7 @@ from checker.named_files import look_at, look_at_class
 from checker.parameter_tables import read_parameters
 from checker.played_log import look_at_log
 from checker.property_tables import read_properties
+from checker.respelt import respelt, rewritten
 from nddl_lang.mission_suffixes import AGENT_SUFFIXES
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.nearest import nearest
@@ -265,7 +266,8 @@ def _read_reactors(
         for index, timeline in enumerate(reactor.external):
             if timeline not in owners and are_told:
                 span = table.text.value_span((*table.path, "external", index))
-                table.text.diagnostics.append(NO_OWNER.at(span, timeline=timeline, help=_suggest(timeline, [*owners])))
+                complaint = NO_OWNER.at(span, timeline=timeline, help=_suggest(timeline, [*owners]))
+                table.text.diagnostics.append(respelt(complaint, timeline, owners))
     cycle = _find_cycle(reactors, {timeline: name for timeline, (name, _) in owners.items() if timeline not in twins})
     if cycle:
         span = tables[0].text.key_span(tables[0].path)
@@ -347,9 +349,11 @@ def _without_owner(
                 span = text.value_span(path)
                 if span.text.strip("\"'") == close:
                     notes = tuple(Note("a goal is on it", each) for each in spans)
-                    return NO_OWNER.at(span, timeline=timeline, help=f"did you mean `{timeline}`?", notes=notes)
+                    complaint = NO_OWNER.at(span, timeline=timeline, help=f"did you mean `{timeline}`?", notes=notes)
+                    return rewritten(complaint, close, timeline)
     notes = tuple(Note("and so is this goal", each) for each in spans[1:])
-    return NO_OWNER.at(spans[0], timeline=timeline, help=_suggest(timeline, owned), notes=notes)
+    complaint = NO_OWNER.at(spans[0], timeline=timeline, help=_suggest(timeline, owned), notes=notes)
+    return respelt(complaint, timeline, owned)
 
 
 def _goal_value(table: Table, key: str) -> Value | Bounds:

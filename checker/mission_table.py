@@ -13,6 +13,7 @@ from checker.codes import (
     UNKNOWN_KEY,
     WRONG_TYPE,
 )
+from checker.respelt import rewritten
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
 from nddl_lang.text.nearest import begun, nearest
 from nddl_lang.text.source import Anchor, Source, Span
@@ -245,7 +246,8 @@ class Table:
             span = self.text.value_span((*self.path, key))
             listed = ", ".join(choices)
             advice = f"did you mean `{close}`?" if close else None
-            self.text.diagnostics.append(UNKNOWN_CHOICE.at(span, key=key, found=value, choices=listed, help=advice))
+            complaint = UNKNOWN_CHOICE.at(span, key=key, found=value, choices=listed, help=advice)
+            self.text.diagnostics.append(complaint if close is None else rewritten(complaint, value, close))
             return close or default
         self._complain_of_type(key, value, "a text in quotes")
         return default

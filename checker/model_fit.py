@@ -17,6 +17,7 @@ from checker.goal_fit import strange_value
 from checker.mission import Mission
 from checker.mission_table import describe
 from checker.named_objects import named_objects
+from checker.respelt import respelt, rewritten
 from compiler.program import DomainConstant, ParameterSite, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.nearest import nearest
@@ -40,7 +41,8 @@ def find_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[
                 if timeline not in objects:
                     span = text.value_span((*text.reactor_path(number), key, index))
                     advice = _advice(timeline, [*objects], "objects of the model")
-                    yield NO_TIMELINE.at(span, model=reactor.model, timeline=timeline, help=advice)
+                    complaint = NO_TIMELINE.at(span, model=reactor.model, timeline=timeline, help=advice)
+                    yield respelt(complaint, timeline, objects)
                 elif key == "internal":
                     owners[timeline] = program
     for number, goal in enumerate(mission.agent.goals):
@@ -56,7 +58,8 @@ def find_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[
             advice = _advice(goal.predicate, [*predicates], "predicates")
             if others and not advice.startswith("did"):
                 advice = f"the timeline `{others[0]}` has it"
-            yield NO_PREDICATE.at(span, class_name=class_name, predicate=goal.predicate, help=advice)
+            complaint = NO_PREDICATE.at(span, class_name=class_name, predicate=goal.predicate, help=advice)
+            yield respelt(complaint, goal.predicate, predicates)
         else:
             yield from _strange_arguments(mission, number, predicate, owner)
 
@@ -70,7 +73,7 @@ def _strange_arguments(
         if name not in known:
             span = mission.text.key_span(path)
             advice = _advice(name, [*known], "parameters")
-            yield NO_ARGUMENT.at(span, predicate=predicate.name, name=name, help=advice)
+            yield respelt(NO_ARGUMENT.at(span, predicate=predicate.name, name=name, help=advice), name, known)
             continue
         strange = strange_value(known[name], value, program)
         if strange is not None:
@@ -80,6 +83,8 @@ def _strange_arguments(
                 span, predicate=predicate.name, name=name, wanted=strange.wanted, found=found, help=strange.advice
             )
             declared = known[name].span
+            if strange.meant is not None:
+                code = rewritten(code, str(value), strange.meant)
             yield code if declared is None else replace(code, notes=(Note("declared here", declared),))
 
 
@@ -90,7 +95,7 @@ def sampling_misfits(mission: Mission, sites: Mapping[str, ParameterSite]) -> It
         span = _span_of(mission, parameter)
         if site is None:
             advice = _advice(parameter.name, [*sites], "sampled parameters")
-            yield UNUSED_PARAMETER.at(span, name=parameter.name, help=advice)
+            yield respelt(UNUSED_PARAMETER.at(span, name=parameter.name, help=advice), parameter.name, sites)
         elif site.kind == "int" and (wrong := _fractions(parameter)):
             notes = tuple(Note("sampled here", use) for use in site.uses[:1])
             yield ILL_DISTRIBUTION.at(span, reason=f"the model samples whole numbers, and {wrong}", notes=notes)

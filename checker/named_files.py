@@ -1,10 +1,13 @@
 """Files that a mission file names: one that is not there, or is none, is told where it is named."""
 
 import ast
+from dataclasses import replace
 from pathlib import Path
 
 from checker.codes import NO_CLASS, NO_FILE, NO_TEXT_FILE, OUT_OF_RANGE
 from checker.mission_table import MissionText
+from checker.respelt import respelt, rewritten
+from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_text
 from runtime.user.reactor_library import OWN
@@ -23,16 +26,20 @@ def look_at(text: MissionText, key: tuple[str | int, ...], root: Path, file: str
         what = "a directory" if is_folder else "a device or a pipe"
         text.diagnostics.append(NO_TEXT_FILE.at(span, path=file, what=what, help="name a regular file"))
     elif not is_file:
-        text.diagnostics.append(NO_FILE.at(span, path=file, help=_suggest_file(root, file)))
+        text.diagnostics.append(_with_file_meant(NO_FILE.at(span, path=file), root, file))
     return is_file
 
 
-def _suggest_file(root: Path, file: str) -> str | None:
+def _with_file_meant(complaint: Diagnostic, root: Path, file: str) -> Diagnostic:
+    """The complaint with the file that is meant."""
     folder = (root / file).parent
     if not folder.is_dir():
-        return "paths are relative to the mission file"
+        return replace(complaint, help="paths are relative to the mission file")
     close = nearest(Path(file).name, sorted(path.name for path in folder.iterdir()))
-    return f"did you mean `{(Path(file).parent / close).as_posix()}`?" if close else None
+    if close is None:
+        return complaint
+    meant = (Path(file).parent / close).as_posix()
+    return rewritten(replace(complaint, help=f"did you mean `{meant}`?"), file, meant)
 
 
 def look_at_class(text: MissionText, key: tuple[str | int, ...], root: Path, file: str, class_name: str) -> None:
@@ -59,7 +66,8 @@ def look_at_class(text: MissionText, key: tuple[str | int, ...], root: Path, fil
     there = f"it has {', '.join(f'`{each}`' for each in classes)}" if classes else "it has no class at all"
     help_text = f"did you mean `{close}`?" if close else there
     where = f"`{file}`" if file else "nddlc"
-    text.diagnostics.append(NO_CLASS.at(text.value_span(key), where=where, name=class_name, help=help_text))
+    complaint = NO_CLASS.at(text.value_span(key), where=where, name=class_name, help=help_text)
+    text.diagnostics.append(respelt(complaint, class_name, classes))
 
 
 def _names_in(path: Path) -> tuple[list[str], set[str]] | None:

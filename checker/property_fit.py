@@ -17,6 +17,7 @@ from checker.goal_fit import strange_value
 from checker.mission import Mission
 from checker.mission_table import describe
 from checker.named_objects import named_objects, resources_of
+from checker.respelt import respelt, rewritten
 from compiler.program import TOKEN_TIMES, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
@@ -59,13 +60,14 @@ def _level_misfits(
     if level.reactor and level.reactor not in names:
         advice = _advice(level.reactor, names, "reactors")
         span = mission.text.value_span((*path, "reactor"))
-        yield NO_REACTOR.at(span, name=level.reactor, help=advice)
+        yield respelt(NO_REACTOR.at(span, name=level.reactor, help=advice), level.reactor, names)
         return
     chosen = [one for one in mission.agent.reactors if level.reactor in ("", one.name) and one.model in programs]
     known = [name for one in chosen for name in resources_of(programs[one.model])]
     if level.resource not in known:
         advice = _advice(level.resource, list(dict.fromkeys(known)), "resources")
-        yield NO_RESOURCE.at(mission.text.value_span((*path, "resource")), name=level.resource, help=advice)
+        complaint = NO_RESOURCE.at(mission.text.value_span((*path, "resource")), name=level.resource, help=advice)
+        yield respelt(complaint, level.resource, known)
     least, most = level.bounds
     if least == most:
         help_ = f"`level = [{least:g}, inf]` is at least {least:g}, `level = [-inf, {least:g}]` at most"
@@ -88,7 +90,8 @@ def _pattern_misfits(
     if pattern.predicate and pattern.predicate not in known:
         span = mission.text.value_span((*path, "predicate"))
         advice = _advice(pattern.predicate, list(known), "predicates")
-        yield NO_PREDICATE.at(span, class_name=class_name, predicate=pattern.predicate, help=advice)
+        complaint = NO_PREDICATE.at(span, class_name=class_name, predicate=pattern.predicate, help=advice)
+        yield respelt(complaint, pattern.predicate, known)
         return
     chosen = [known[pattern.predicate]] if pattern.predicate else own
     names = {parameter.name for one in chosen for parameter in one.parameters}
@@ -98,8 +101,9 @@ def _pattern_misfits(
             key: _Path = (*path, "parameters", name) if is_listed else (*path, "where")
             span = mission.text.key_span(key) if is_listed else mission.text.value_span(key)
             what = pattern.predicate or str(class_name)
-            advice = _value_advice(name, chosen, program) or _advice(name, [*sorted(names), *TOKEN_TIMES], "arguments")
-            yield NO_ARGUMENT.at(span, predicate=what, name=name, help=advice)
+            offered = [*sorted(names), *TOKEN_TIMES]
+            advice = _value_advice(name, chosen, program) or _advice(name, offered, "arguments")
+            yield respelt(NO_ARGUMENT.at(span, predicate=what, name=name, help=advice), name, offered)
     if all(name in names for name in _names_of(pattern)):
         yield from _uncompared(mission, pattern, path, chosen)
     for one in chosen:
@@ -141,10 +145,11 @@ def _strange_values(
             strange = strange_value(codes[name], value, program)
             if strange is not None:
                 span = mission.text.value_span((*path, "parameters", name))
-                yield ILL_VALUE.at(
+                complaint = ILL_VALUE.at(
                     span, predicate=predicate.name, name=name, wanted=strange.wanted, found=describe(value),
                     help=strange.advice,
                 )  # fmt: skip
+                yield complaint if strange.meant is None else rewritten(complaint, str(value), strange.meant)
 
 
 def _advice(name: str, known: list[str], what: str) -> str:

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 
 from checker.codes import MISSING_KEY, NO_OWNER, TWICE
 from checker.mission_table import Table
+from checker.respelt import respelt
 from nddl_lang.text.nearest import nearest
 from runtime.executive.configuration import (
     Bounds,
@@ -61,7 +62,7 @@ def _read_pattern(table: Table, owned: tuple[str, ...]) -> TokenPattern:
         close = nearest(timeline, owned)
         advice = f"did you mean `{close}`?" if close else "owned timelines: " + ", ".join(owned)
         span = table.text.value_span((*table.path, "timeline"))
-        table.text.diagnostics.append(NO_OWNER.at(span, timeline=timeline, help=advice))
+        table.text.diagnostics.append(respelt(NO_OWNER.at(span, timeline=timeline, help=advice), timeline, owned))
     given = table.table("parameters", "[property.parameters]")
     where = table.string("where", "")
     if where:

@@ -8,9 +8,18 @@ from lsp.document_links import document_links
 from lsp.folding import folding_ranges, selection_ranges
 from lsp.inlay_hints import inlay_hints
 from lsp.lenses import code_lenses, counting
-from lsp.mending import can_fix_all, fix_all, formatting, formatting_of_lines, formatting_of_statement, mends
+from lsp.mending import (
+    can_fix_all,
+    fix_all,
+    formatting,
+    formatting_of_lines,
+    formatting_of_statement,
+    mends,
+    mends_of_mission,
+)
 from lsp.mission_answers import mission_lenses
 from lsp.mission_shape import mission_folds, mission_links
+from lsp.mission_texts import OpenMission
 from lsp.open_text import DocumentContext
 from lsp.refactorings import refactorings
 from lsp.semantic_tokens import LEGEND, tokens_between
@@ -64,8 +73,14 @@ def _answer_actions(session: Session) -> None:
                 found.append(action)
         return [each for each in found if only is None or _is_wanted(_name(each.kind), only)]
 
+    def of_mission(mission: OpenMission, params: types.CodeActionParams) -> list[types.CodeAction]:
+        conversion = session.documents.conversion()
+        found = mends_of_mission(session.missions.told(mission), mission, params.range, conversion)
+        only = params.context.only
+        return [each for each in found if only is None or _is_wanted(_name(each.kind), only)]
+
     options = types.CodeActionOptions(kinds, resolve_provider=True)
-    session.answer(types.TEXT_DOCUMENT_CODE_ACTION, actions, options, nothing=list)
+    session.answer(types.TEXT_DOCUMENT_CODE_ACTION, actions, options, nothing=list, of_mission=of_mission)
 
     @session.feature(types.CODE_ACTION_RESOLVE)
     async def resolve(action: types.CodeAction) -> types.CodeAction:

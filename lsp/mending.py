@@ -10,6 +10,7 @@ from lsprotocol.types import CodeAction, CodeActionKind, Position, Range, TextEd
 from lsp.diagnostics import Conversion
 from lsp.documents import Documents
 from lsp.meaning import piece_at
+from lsp.mission_texts import OpenMission
 from lsp.open_text import DocumentContext
 from lsp.positions import Lines
 from lsp.refactorings import additions
@@ -18,6 +19,19 @@ from nddl_lang.lint.mending import mend
 from nddl_lang.syntax.incremental import common_ends
 from nddl_lang.syntax.parser import Parse
 from nddl_lang.text.diagnostic import Diagnostic, Fix
+
+
+def mends_of_mission(
+    found: Iterable[Diagnostic], mission: OpenMission, place: Range, conversion: Conversion
+) -> list[CodeAction]:
+    """The fixes of complaints about a mission file that touch `place`, as actions."""
+    begin, finish = mission.lines.offset(place.start), mission.lines.offset(place.end)
+    return [
+        _action(diagnostic, fix, conversion)
+        for diagnostic in found
+        if diagnostic.span.begin <= finish and begin <= diagnostic.span.finish
+        for fix in diagnostic.fixes
+    ]
 
 
 def mends(

@@ -261,6 +261,22 @@ def _values(documents: Documents, mission: OpenMission, place: MissionPlace) -> 
             owner = schema.classes.get(variable_.type.base) if variable_ is not None else None
             for predicate in (*owner.predicates.values(), *owner.inherited.values()) if owner is not None else ():
                 yield CompletionItem(predicate.name, kind=CompletionItemKind.Method, detail=predicate.full_name)
+        elif place.table[:1] in _GIVEN and place.table[-1] == "parameters":
+            yield from _arguments(mission, snapshot, place)
+
+
+def _arguments(mission: OpenMission, snapshot: Snapshot, place: MissionPlace) -> Iterator[CompletionItem]:
+    """The values that a parameter of the predicate at hand may have: of an enum, or objects of its class."""
+    schema = snapshot.analysis.schema
+    wanted = _predicate(snapshot, _sibling(mission, place, "timeline"), _sibling(mission, place, "predicate"))
+    for type_ in [each.type for each in wanted.parameters if each.name == place.key] if wanted is not None else ():
+        if type_.kind is Kind.ENUM and type_.base in schema.enums:
+            for value in schema.enums[type_.base].values:
+                yield CompletionItem(value, kind=CompletionItemKind.EnumMember, detail=type_.name)
+        elif type_.kind is Kind.OBJECT:
+            for variable in schema.globals.values():
+                if variable.type.kind is Kind.OBJECT and schema.is_subclass(variable.type.base, type_.base):
+                    yield CompletionItem(variable.name, kind=CompletionItemKind.Variable, detail=variable.type.name)
 
 
 def _choices(mission: OpenMission, kind: TomlKind, place: MissionPlace) -> list[str]:

@@ -162,6 +162,7 @@ class MissionTexts:
         self._encoding = encoding
         self._is_trusted = is_trusted
         self._open: dict[str, OpenMission] = {}
+        self._found: dict[str, tuple[Diagnostic, ...]] = {}  # by URI, what was told last
 
     @staticmethod
     def is_mission(uri: str) -> bool:
@@ -203,10 +204,16 @@ class MissionTexts:
 
     def close(self, uri: str) -> bool:
         """A text is no longer open; whether it was."""
+        self._found.pop(uri, None)
         return self._open.pop(uri, None) is not None
 
     def complaints(self, mission: OpenMission, conversion: Conversion) -> tuple[Shown, ...]:
         """What is wrong with a mission file and with what it asks of its models."""
         source = Source(str(mission.path), mission.text)
         found = self._examine(source, mission.path.parent, self._is_trusted)
-        return tuple(conversion.shown(each) for each in found if each.span.source.name == source.name)
+        self._found[mission.uri] = told = tuple(each for each in found if each.span.source.name == source.name)
+        return tuple(map(conversion.shown, told))
+
+    def told(self, mission: OpenMission) -> tuple[Diagnostic, ...]:
+        """What `complaints` found last."""
+        return self._found.get(mission.uri, ())

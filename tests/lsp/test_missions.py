@@ -12,7 +12,7 @@ from tests.lsp.test_quick_fixes import mended
 MODEL = """\
 /// Seconds per hit.
 float GPS_HIT_RATE = [0.1 4.0];
-class Gps extends Timeline { predicate Idle { } predicate Busy { int hits; } }
+enum Level { low, high } class Gps extends Timeline { predicate Idle { } predicate Busy { int hits; Level level; } }
 Gps gps = new Gps();
 Gps::Busy { float rate; rate == sampledParameter(GPS_HIT_RATE); duration >= 3; }
 """
@@ -33,6 +33,7 @@ predicate = "Busy"
 start = [5, 10]
 [goal.parameters]
 hits = 3
+level = "low"
 
 [parameters.GPS_HIT_RATE]
 range = [0.5, 1.0]
@@ -114,6 +115,7 @@ def test_hover_tells_what_keys_and_names_mean(opened: Any) -> None:
         ('timeline = "gps"', 'timeline = "', {"gps"}),
         ('model = "model.nddl"', 'model = "', {"model.nddl"}),
         ("hits = 3", "h", {"hits"}),
+        ('level = "low"', 'level = "', {"low", "high"}),
         ("[parameters.GPS_HIT_RATE]", "[parameters.", {"GPS_HIT_RATE"}),
         ("lookahead = 60", "la", {"latency", "lookahead", "internal", "solver"}),
         ("final_tick = 60", 'on_failure = "', {"abort_agent", "kill_reactor"}),

@@ -229,6 +229,34 @@ UNSEEN: dict[str, list[tuple[str, ...]]] = {
     ],
 }
 
+IN_A_MISSION = [
+    ('"skipper.nddl"', '"skiper.nddl"'),
+    ("latency = 3", "latencey = 3"),
+    ('internal = ["voyage"]', 'internal = ["voyages"]'),
+    ('predicate = "Trip"', 'predicate = "Trp"'),
+    ('way = "up"', 'way = "upp"'),
+    ('mode = "intra"', 'mode = "intro"'),
+    ("[parameters.WEED]", "[parameters.WED]"),
+    ('external = ["barge", "lock"]', 'external = ["bargee", "lock"]'),
+    ("laden = true", "ladden = true"),
+]
+
+
+def test_misspelt_words_of_a_mission_file_are_mended_by_quick_fixes_only(client: Any, tmp_path: Path) -> None:
+    shutil.copytree(ROOT / "tests" / "checker" / "unseen" / "canal", tmp_path / "canal")
+    path = tmp_path / "canal" / "mission.toml"
+    right = path.read_text()
+    uri = path.as_uri()
+    client.start(folder=path.parent)
+    client.open(uri, right)
+    for mistake in IN_A_MISSION:
+        text = broken(right, mistake)
+        (error, *_) = client.change(uri, {"text": text})["diagnostics"]
+        actions = client.ask(
+            "textDocument/codeAction", textDocument={"uri": uri}, range=error["range"], context={"diagnostics": [error]}
+        )
+        assert [mended(text, each["edit"]["changes"][uri]) for each in actions] == [right], mistake
+
 
 @pytest.mark.parametrize("name", UNSEEN)
 def test_mistakes_in_a_model_of_many_files_are_mended_by_quick_fixes_only(

@@ -1,0 +1,26 @@
+"""A complaint about a misspelt name in a mission file in; the same with the fix that writes the right one out."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
+from nddl_lang.text.nearest import nearest
+from nddl_lang.text.source import Span
+
+
+def respelt(complaint: Diagnostic, name: str, known: Iterable[str]) -> Diagnostic:
+    """`complaint`, which stands at `name`, with a fix where one of the known names resembles it."""
+    close = nearest(name, known)
+    return complaint if close is None else rewritten(complaint, name, close)
+
+
+def rewritten(complaint: Diagnostic, name: str, meant: str) -> Diagnostic:
+    """`complaint` with a fix that writes `meant` for `name`, which stands there alone or behind a dot; quotes stay."""
+    span = complaint.span
+    before, found, after = span.text.rpartition(name)
+    is_last = before.strip("\"'") == "" or before.rstrip("\"'").endswith(".")
+    if not found or not is_last or after.strip("\"'") != "":
+        return complaint
+    start = span.start + len(before)
+    edit = Edit(Span(span.anchor, start, start + len(name)), meant)
+    return replace(complaint, fixes=(*complaint.fixes, Fix(f"write `{meant}`", (edit,), safe=False)))
