@@ -77,6 +77,7 @@ class Conversion:
             if note.span is not None
         ]
         page = page_of(code)
+        fixes = [{"title": fix.title, "isSafe": fix.safe} for fix in diagnostic.fixes]
         return Shown(
             self.range(diagnostic.span),
             "\n".join(lines),
@@ -86,4 +87,5 @@ class Conversion:
             _SOURCE,
             _TAGS.get(code),
             related or None,
+            {"fixes": fixes} if fixes else None,
         )

@@ -57,6 +57,7 @@ def test_a_session_from_the_first_complaint_to_the_exit(client: Any, tmp_path: P
         "nothing named `minHitz` is in scope here",
         "help: did you mean `minHits`?",
     ]
+    assert complaint["data"] == {"fixes": [{"title": "write `minHits`", "isSafe": False}]}
 
     shown = client.hover(uri, 7, 28)
     assert "float GPS_HIT_RATE = [0.1 4.0]" in shown
