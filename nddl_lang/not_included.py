@@ -1,5 +1,6 @@
 """A file beside the text that declares what is unknown in it: one message names it, in place of one for each name."""
 
+import os
 import stat
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
@@ -56,39 +57,53 @@ def _bringing(
     then the one that brings least.
     """
     read = {real_path(path) for path in loaded.paths.values()}
+    real: dict[Path, Path] = {}  # to ask the file system for the links on the way costs more than all else here
     best: tuple[tuple[bool, bool, int], str, frozenset[str]] | None = None
     for folder in (loaded.paths[source].parent, LIBRARY):
-        for path in _models(folder):
-            if real_path(path) in read:
+        for path in _models(folder, real):
+            if real[path] in read:
                 continue
             own, _ = _declarations(path, loaded.dialect, declared)
-            brought = frozenset(_with_includes(path, loaded.dialect, declared, set()))
+            brought = frozenset(_with_includes(path, loaded.dialect, declared, real, set()))
             rank = (folder is LIBRARY, not own.issuperset(unknown), len(brought))
             if brought.issuperset(unknown) and (best is None or rank < best[0]):
                 best = rank, path.name, brought
     return None if best is None else best[1:]
 
 
-def _with_includes(path: Path, dialect: Dialect, declared: Declared, seen: set[Path]) -> Iterator[str]:
-    """What a file declares, and what the files declare that it includes."""
-    seen.add(real_path(path))
+def _with_includes(
+    path: Path, dialect: Dialect, declared: Declared, real: dict[Path, Path], seen: set[Path]
+) -> Iterator[str]:
+    """What a file declares, and what the files declare that it includes; `real` are the one names of files."""
+    seen.add(real[path])
     own, includes = _declarations(path, dialect, declared)
     yield from own
     for name in includes:
         for other in (path.parent / name, LIBRARY / name):
-            if other.is_file():
-                if real_path(other) not in seen:
-                    yield from _with_includes(other, dialect, declared, seen)
+            if other in real or other.is_file():
+                if other not in real:
+                    real[other] = real_path(other)
+                if real[other] not in seen:
+                    yield from _with_includes(other, dialect, declared, real, seen)
                 break
 
 
-def _models(folder: Path) -> list[Path]:
-    """The models in a folder, in the order of their names; none where the folder cannot be read, or has very many."""
+def _models(folder: Path, real: dict[Path, Path]) -> list[Path]:
+    """The models in a folder, in the order of their names; none where the folder cannot be read, or has very many.
+
+    Their one names are put into `real`.
+    """
     try:
-        found = sorted(path for path in folder.iterdir() if path.suffix == ".nddl")
+        with os.scandir(folder) as entries:
+            links = {entry.name: entry.is_symlink() for entry in entries if entry.name[1:].endswith(".nddl")}
     except OSError:
         return []
-    return found if len(found) <= _MOST_FILES else []
+    if len(links) > _MOST_FILES:
+        return []
+    within = real_path(folder)
+    found = [folder / name for name in sorted(links)]
+    real.update((path, real_path(path) if links[path.name] else within / path.name) for path in found)
+    return found
 
 
 def _declarations(path: Path, dialect: Dialect, declared: Declared) -> tuple[frozenset[str], tuple[str, ...]]:

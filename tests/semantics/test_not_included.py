@@ -1,5 +1,6 @@
 """A missing include is one message that names the file, not one for each name that is declared there."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -65,3 +66,33 @@ def test_what_cannot_be_read_is_passed_over(folder: Path) -> None:
     (folder / "c.nddl").symlink_to("c.nddl")
     (folder / "d.nddl").write_bytes(b"\xff\x00" * 100)
     assert len(analyse_file(folder / "main.nddl").diagnostics) == 1
+
+
+def test_the_file_system_is_asked_for_links_once_for_all_files_beside(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[object] = []
+    follow = os.path.realpath
+
+    def counted(path: Path) -> str:
+        asked.append(path)
+        return follow(path)
+
+    monkeypatch.setattr(os.path, "realpath", counted)
+    counts = []
+    for number in range(40):
+        (folder / f"other{number}.nddl").write_text("int OTHER = 3;\n")
+        if number in (0, 39):
+            asked.clear()
+            (only,) = analyse_file(folder / "main.nddl").diagnostics
+            assert only.help is not None and "`types.nddl`" in only.help
+            counts.append(len(asked))
+    assert counts[0] == counts[1]
+
+
+def test_a_link_to_an_included_file_is_that_file(folder: Path) -> None:
+    (folder / "elsewhere").mkdir()
+    (folder / "types.nddl").rename(folder / "elsewhere" / "types.nddl")
+    (folder / "other.nddl").symlink_to(folder / "elsewhere" / "types.nddl")
+    (folder / "main.nddl").write_text('#include "elsewhere/types.nddl"\nint A = SPEEDY + SPEEDIER;\n')
+    assert all("not included" not in (each.help or "") for each in analyse_file(folder / "main.nddl").diagnostics)
