@@ -192,7 +192,7 @@ def test_a_mistake_in_toml_is_told_with_its_line() -> None:
     """
     assert complaints_of(text, "s.toml") == [
         "5: `priorty` means nothing here and is left out",
-        "6: no flaw manager is called `Threats`",
+        "7: no flaw manager is called `Threats`",
     ]
     assert complaints_of("a = \n", "s.toml") == ["1: invalid value"]
 

@@ -64,7 +64,7 @@ class _Converter:
         for name, tag in (("filter", "FlawFilter"), ("handler", "FlawHandler")):
             if name in plain:
                 children += [self.element(tag, *one) for one in self.tables(plain.pop(name), (*path, name))]
-        tag = str(plain.pop("component", ""))
+        tag = str(plain.get("component", ""))
         return Element(tag, tuple(self.attributes(plain, path)), tuple(children), self.span(path))
 
     def element(self, tag: str, table: _Table, path: Path) -> Element:
