@@ -8,7 +8,7 @@ from lsprotocol.types import CompletionItem, CompletionItemKind, InsertTextForma
 from lsp.completion_context import Situation, situation_at
 from lsp.completion_place import Place, place_around
 from lsp.describe import Describer, parameter_text
-from lsp.expected_type import expected_types, rank
+from lsp.expected_type import expected_types, rank, rank_of_class
 from lsp.meaning import WORDS, piece_at
 from lsp.rows import constraint_text, function_text, relation_head, relation_tail
 from nddl_lang.analysis import Analysis
@@ -52,8 +52,10 @@ def completions(analysis: Analysis, parse: Parse, offset: int, *, with_snippets:
     found: dict[str, CompletionItem] = {}
     for item in items:
         found.setdefault(item.label, item)
-    expected = expected_types(place, piece, begun) if situation is Situation.VALUE else frozenset[str]()
-    ordered = sorted(found.values(), key=lambda item: rank(place, expected, item)) if not path else found.values()
+    is_of_type = situation in (Situation.VALUE, Situation.NEW)
+    expected = expected_types(place, piece, begun) if is_of_type else frozenset[str]()
+    fits = rank_of_class if situation is Situation.NEW else rank
+    ordered = sorted(found.values(), key=lambda item: fits(place, expected, item)) if not path else found.values()
     return [_sorted(item, number) for number, item in enumerate(ordered)]
 
 

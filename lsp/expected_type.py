@@ -63,6 +63,11 @@ def rank(place: Place, expected: frozenset[str], item: CompletionItem) -> int:
     return 0 if types & expected else 2
 
 
+def rank_of_class(place: Place, expected: frozenset[str], item: CompletionItem) -> int:
+    """0 of a class whose objects have an expected type, 1 of another one."""
+    return 0 if expected.intersection(place.schema.ancestry(item.label)) else 1
+
+
 def _types_of(place: Place, item: CompletionItem) -> Iterable[str]:
     """The types of what an item names, and those that an object of it also is."""
     name, schema = item.label, place.schema

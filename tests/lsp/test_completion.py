@@ -74,6 +74,8 @@ def test_values_of_the_type_that_is_expected_come_first(typed: str, first: set[s
         ("Pilot other = new Pilot(|", "engine"),
         ("Place other = |", "dock"),
         ("Speed other = |", "Slow"),
+        ("Pilot other = new |", "Pilot"),
+        ("Place other = new P|", "Place"),
     ],
 )
 def test_an_object_is_made_of_what_its_constructor_takes(typed: str, first: str, wire: Any) -> None:
