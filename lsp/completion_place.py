@@ -10,7 +10,8 @@ from nddl_lang.semantics.schema import Kind, Label, Predicate, Schema, Type, Var
 from nddl_lang.syntax.piece import Piece
 from nddl_lang.text.source import Span
 
-_RULE = re.compile(r"([A-Za-z_$][\w$]*)\s*::\s*([A-Za-z_$][\w$]*)\s*\{")
+# Looked for at the beginnings of words only: a long name is not tried from each of its letters.
+_RULE = re.compile(r"(?<![\w$])([A-Za-z_$][\w$]*)\s*::\s*([A-Za-z_$][\w$]*)\s*\{")
 _CLASS = re.compile(r"\bclass\s+([A-Za-z_$][\w$]*)")
 
 

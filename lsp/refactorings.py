@@ -26,8 +26,8 @@ from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.read import read_text
 
 _MISSING = (UNKNOWN_CLASS, UNKNOWN_TYPE, UNKNOWN_NAME)
-_SCRIPT = re.compile(r"^\s*(?:goal|fact|rejectable)\s*\(|^\s*(?:\w+\s*\.\s*)?close\s*\(\s*\)", re.MULTILINE)
-_DECLARED = r"^\s*(?:class|enum|typedef\b.*?|[A-Za-z_]\w*)\s+{name}\b"
+_SCRIPT = re.compile(r"^[ \t]*(?:goal|fact|rejectable)\s*\(|^[ \t]*(?:\w+\s*\.\s*)?close\s*\(\s*\)", re.MULTILINE)
+_DECLARED = r"^[ \t]*(?:class|enum|typedef\b.*?|[A-Za-z_]\w*)\s+{name}\b"
 
 
 def refactorings(documents: Documents, view: DocumentContext, place: Range) -> list[CodeAction]:

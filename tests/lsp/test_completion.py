@@ -1,5 +1,6 @@
 """What fits a place comes first, and what cannot stand there is not offered: asked of the server at `|`."""
 
+import time
 from typing import Any
 
 import pytest
@@ -130,3 +131,9 @@ def test_methods_are_offered_where_they_can_be_called(typed: str, is_there: bool
 
 def test_an_include_is_of_a_file(wire: Any) -> None:
     assert offered(wire, "#include |\n" + HEAD) == []
+
+
+def test_a_very_long_name_is_read_once(wire: Any) -> None:
+    begun = time.process_time()
+    offered(wire, HEAD + "x" * 100_000 + "|")
+    assert time.process_time() - begun < 20  # minutes, if it is read from each of its letters on
