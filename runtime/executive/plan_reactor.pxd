@@ -7,9 +7,10 @@ from runtime.executive.dispatch cimport Dispatch
 from runtime.executive.goals cimport Goals
 from runtime.executive.holding cimport is_blocked
 from runtime.executive.past cimport Past
+from runtime.executive.lasting cimport last_until
 from runtime.executive.planning cimport Planner
 from runtime.executive.reactor cimport TeleoReactor
-from runtime.executive.synchronise cimport last_until, synchronise
+from runtime.executive.synchronise cimport synchronise
 from runtime.executive.timelines cimport TimelineState
 from runtime.executive.workbench cimport Workbench
 

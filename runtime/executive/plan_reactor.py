@@ -7,6 +7,7 @@ from runtime.executive.dispatch import Dispatch
 from runtime.executive.draws import Draws
 from runtime.executive.goals import Goals, Repair
 from runtime.executive.holding import is_blocked
+from runtime.executive.lasting import last_until
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
 from runtime.executive.past import Past
@@ -16,7 +17,7 @@ from runtime.executive.record import ReactorRecord
 from runtime.executive.redrawing import draw_anew, leave_open
 from runtime.executive.repair import relax
 from runtime.executive.story import conflict_of, latest
-from runtime.executive.synchronise import last_until, synchronise
+from runtime.executive.synchronise import synchronise
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.told_on import watched_in, why_sent
 from runtime.executive.trace import Trace
@@ -145,23 +146,22 @@ class PlanReactor(TeleoReactor):
     def synchronise(self, tick: int) -> Failure | None:
         """Synchronise the present; if that fails, repair: first keep the past, then forget it (T-REX 1.4, 1.9)."""
         causes: tuple[int, ...] = ()
+        watched: tuple[Watched, ...] = ()
         events: list[int] = []
         failures: list[SyncFailure] = []
-        watched: tuple[Watched, ...] = ()
         self.dispatch.note_begun()
         for attempt in range(3):
             if attempt:
                 self.trace.phase = Phase.REPAIR
-                latest_failure = failures[attempt - 1]
+                failed, broke = failures[attempt - 1], failures[0]
                 event = self.trace.record(
                     EventKind.RELAX,
                     self.name,
                     causes=causes,
                     stage=RepairStage.KEEP_PAST if attempt == 1 else RepairStage.FORGET_PAST,
-                    reason=latest_failure.reason,
-                    conflict=latest_failure.conflict,
+                    reason=failed.reason,
+                    conflict=failed.conflict,
                 )
-                broke = failures[0]
                 self.goals.note_repair(Repair(tick, event, broke.reason, broke.conflict, broke.deadlock), watched)
                 self.relaxes += 1
                 self.planner.kept_depth = 0
@@ -169,8 +169,8 @@ class PlanReactor(TeleoReactor):
                 if attempt == 1:
                     self.bench.recorder.agreed = None
                 if not relax(self.bench, self.timelines, self.goals.live(), self.past, tick, forget=attempt == 2):
-                    what = Reason(ReasonKind.CANNOT_RELAX)
-                    failures.append(SyncFailure(failures[0].code, (), what, conflict_of(self.bench)))
+                    stuck = Reason(ReasonKind.CANNOT_RELAX)
+                    failures.append(SyncFailure(broke.code, (), stuck, conflict_of(self.bench)))
                     continue
                 self.goals.give_up_failed_starts(tick)
             failure = self._prepare(tick) or self._synchronise(tick)
@@ -202,11 +202,9 @@ class PlanReactor(TeleoReactor):
     def _prepare(self, tick: int) -> SyncFailure | None:
         """Let last what held while it slept; draw anew what was drawn for a tick at which its token does not begin."""
         failure = last_until(self.bench, self.timelines, tick)
-        if failure is not None:
-            return failure
-        if draw_anew(self.bench, self.draws, self.goals, tick):
-            return None
-        return SyncFailure("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))
+        if failure is None and not draw_anew(self.bench, self.draws, self.goals, tick):
+            return SyncFailure("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))
+        return failure
 
     def _synchronise(self, tick: int) -> SyncFailure | None:
         """Synchronise the present, or leave the plan as it was."""

@@ -2,6 +2,7 @@
 
 cimport cython
 from runtime.executive.dispatch cimport Dispatch
+from runtime.executive.lasting cimport persist
 from runtime.executive.planning cimport Planner
 from runtime.executive.timelines cimport TimelineState
 from runtime.executive.workbench cimport Workbench
@@ -14,14 +15,6 @@ cdef long long SPAN_OBSERVATION, _EXTEND, _FACT, _FREE_TRIES, _MEET, _MOST_TRIES
 cpdef object synchronise(
     Workbench bench, Planner planner, list timelines, long long tick, long long final_tick, Dispatch asked
 )
-
-
-@cython.locals(line=TimelineState, mark="long long", span="long long", token="long long")
-cpdef object last_until(Workbench bench, list timelines, long long tick)
-
-
-@cython.locals(following="long long", line=TimelineState)
-cpdef object _persist(Workbench bench, list timelines, long long tick, Dispatch asked)
 
 
 cdef class _Search:

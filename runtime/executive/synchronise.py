@@ -7,6 +7,7 @@ chronologically. Where that takes long, a timeline on which nothing fits is deci
 from dataclasses import replace
 
 from runtime.executive.dispatch import Dispatch
+from runtime.executive.lasting import persist
 from runtime.executive.messages import Observation
 from runtime.executive.outcome import ChoiceKind, Deadlock, FailedChoice, PresentChoice, Reason, ReasonKind
 from runtime.executive.planning import EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, Planner
@@ -43,7 +44,7 @@ def synchronise(
     """
     if not bench.set_clock(tick):
         return SyncFailure("F3", (), Reason(ReasonKind.CLOCK, tick=tick), conflict_of(bench))
-    failed = _persist(bench, timelines, tick, asked)
+    failed = persist(bench, timelines, tick, asked)
     if failed is not None:
         return failed
     mark = bench.mark()
@@ -53,44 +54,6 @@ def synchronise(
     bench.rewind_to(mark)
     search = _Search(bench, planner, timelines, tick, final_tick, asked, True)
     return search.explained(search.run())
-
-
-def last_until(bench: Workbench, timelines: list[TimelineState], tick: int) -> SyncFailure | None:
-    """What holds has gone on while the reactor slept, to `tick`; on failure the plan stays as it was."""
-    mark = NOTHING
-    for line in timelines:
-        token = line.current
-        if token == NOTHING or bench.lower(bench.end(token)) >= tick:
-            continue
-        if mark == NOTHING:
-            mark = bench.mark()
-        span = SPAN_EXECUTIVE if line.is_internal else SPAN_OBSERVATION
-        if not bench.at_least(bench.end(token), tick, span, token):
-            what = Reason(ReasonKind.CANNOT_GO_ON, bench.name_of(token), tick=tick)
-            failure = SyncFailure("F3" if line.is_internal else "F1", (line.name,), what, conflict_of(bench))
-            bench.rewind_to(mark)
-            bench.commit()
-            return failure
-    if mark != NOTHING:
-        bench.commit()
-    return None
-
-
-def _persist(bench: Workbench, timelines: list[TimelineState], tick: int, asked: Dispatch) -> SyncFailure | None:
-    """No news means no change: what is observed on other reactors' timelines goes on; a new value ends it."""
-    for line in timelines:
-        if line.is_internal or line.current == NOTHING:
-            continue
-        if line.news is None:
-            if not bench.at_least(bench.end(line.current), tick + 1, SPAN_OBSERVATION, line.current):
-                what = Reason(ReasonKind.GOES_ON, bench.name_of(line.current), tick=tick)
-                following = bench.next_of(line.object_id, line.current)
-                code = "F6" if following >= 0 and asked.is_refused(following) else "F1"
-                return SyncFailure(code, (line.name,), what, conflict_of(bench))
-        elif not bench.end_observed(line.current, tick):
-            what = Reason(ReasonKind.ENDED, bench.name_of(line.current), tick=tick)
-            return SyncFailure(code_of_news(line.news), (line.name,), what, conflict_of(bench))
-    return None
 
 
 class _Search:

@@ -74,9 +74,7 @@ def test_a_failure_is_named_however_slow_the_machine_is() -> None:
     """On a busy machine the time to look for what stands in the way was over before the first failure."""
     slow, goal = count(0.0, 60.0), GoalConfiguration("job", "Fill", 0, True, (5.0, 20.0))
     with (
-        pytest.raises(
-            OutOfTimeError, match=r"`.* <= .`.* more stand in the way in \d of its first \d failures"
-        ),
+        pytest.raises(OutOfTimeError, match=r"`.* <= .`.* more stand in the way in \d of its first \d failures"),
         TIME_LIMIT.lasting(100.0, lambda: next(slow)),
     ):
         flown(planner("planner", MODEL, "job"), until=60, goals=(goal,))

@@ -1,0 +1,47 @@
+"""Let what holds go on: while the reactor slept, and where no news has come (T-REX 1.4)."""
+
+from runtime.executive.dispatch import Dispatch
+from runtime.executive.outcome import Reason, ReasonKind
+from runtime.executive.reactor import SyncFailure, code_of_news
+from runtime.executive.story import conflict_of
+from runtime.executive.timelines import NOTHING, TimelineState
+from runtime.executive.view import SPAN_EXECUTIVE, SPAN_OBSERVATION
+from runtime.executive.workbench import Workbench
+
+
+def last_until(bench: Workbench, timelines: list[TimelineState], tick: int) -> SyncFailure | None:
+    """What holds has gone on while the reactor slept, to `tick`; on failure the plan stays as it was."""
+    mark = NOTHING
+    for line in timelines:
+        token = line.current
+        if token == NOTHING or bench.lower(bench.end(token)) >= tick:
+            continue
+        if mark == NOTHING:
+            mark = bench.mark()
+        span = SPAN_EXECUTIVE if line.is_internal else SPAN_OBSERVATION
+        if not bench.at_least(bench.end(token), tick, span, token):
+            what = Reason(ReasonKind.CANNOT_GO_ON, bench.name_of(token), tick=tick)
+            failure = SyncFailure("F3" if line.is_internal else "F1", (line.name,), what, conflict_of(bench))
+            bench.rewind_to(mark)
+            bench.commit()
+            return failure
+    if mark != NOTHING:
+        bench.commit()
+    return None
+
+
+def persist(bench: Workbench, timelines: list[TimelineState], tick: int, asked: Dispatch) -> SyncFailure | None:
+    """No news means no change: what is observed on other reactors' timelines goes on; a new value ends it."""
+    for line in timelines:
+        if line.is_internal or line.current == NOTHING:
+            continue
+        if line.news is None:
+            if not bench.at_least(bench.end(line.current), tick + 1, SPAN_OBSERVATION, line.current):
+                what = Reason(ReasonKind.GOES_ON, bench.name_of(line.current), tick=tick)
+                following = bench.next_of(line.object_id, line.current)
+                code = "F6" if following >= 0 and asked.is_refused(following) else "F1"
+                return SyncFailure(code, (line.name,), what, conflict_of(bench))
+        elif not bench.end_observed(line.current, tick):
+            what = Reason(ReasonKind.ENDED, bench.name_of(line.current), tick=tick)
+            return SyncFailure(code_of_news(line.news), (line.name,), what, conflict_of(bench))
+    return None
