@@ -20,9 +20,6 @@ cdef class Goals:
 
     cpdef bint take_in(self, long long tick, long long reach) except -1
 
-    @cython.locals(found=list, goal=Goal)
-    cpdef list missed(self)
-
     @cython.locals(found=double, goal=Goal)
     cpdef double next_expiry(self) except? -1.0
 
