@@ -250,7 +250,7 @@ def _undecided(pattern: TokenPattern, token: _Held) -> str:
     told = []
     for name in dict.fromkeys(names):
         value = token.arguments.get(name)
-        if name not in TOKEN_TIMES and (value is None or isinstance(value, ValueRange | OpenValues)):
+        if name not in TOKEN_TIMES and isinstance(value, ValueRange | OpenValues):
             told.append(f"`{name}` was never decided ({_shown(value)})")
     return ", ".join(told)
 

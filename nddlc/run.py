@@ -82,8 +82,10 @@ def command(
     else:
         _progress(f"flying {agent.name} ...")
     now = time.monotonic if is_timed else _Watch(agent.name)
-    flight = fly(mission, models, settings, clock if is_timed or log is not None else None, now)
-    _progress("")
+    try:
+        flight = fly(mission, models, settings, clock if is_timed or log is not None else None, now)
+    finally:
+        _progress("")
     if log is not None:
         write_text(log, clock_log(clock, agent.tick))
     if trace is not None:
@@ -107,7 +109,10 @@ class _Watch:
         if now - self._told >= (BAR_SECONDS if self._is_terminal else LINE_SECONDS):
             self._told = now
             text = f"flying {self._name}: {now - self._begun:.0f} s"
-            click.echo(f"\r\x1b[K{text}" if self._is_terminal else text, nl=not self._is_terminal, err=True)
+            if self._is_terminal:
+                _progress(text)
+            else:
+                click.echo(text, err=True)
         return now
 
 

@@ -20,7 +20,7 @@ class LimitError(RuntimeError):
 
 
 class OutOfTimeError(LimitError):
-    """A mission has taken longer than it may, in the middle of a search of `planner`."""
+    """A mission has taken longer than it may, in the middle of a search of `planner` (None: of none)."""
 
     advice = "with `max_steps` a reactor flies on after so many decisions a tick; `time_limit` stands in `[check]`"
 
@@ -41,7 +41,7 @@ class _TimeLimit:
         return self.clock() > self.end
 
     def check(self, planner: object) -> None:
-        """Raise OutOfTimeError where it has; `planner` is searching."""
+        """Raise OutOfTimeError where it has; `planner` (None: nobody) is in the middle of a search."""
         if self.is_over():
             raise OutOfTimeError(f"took longer than {self.seconds:g} s", planner)
 

@@ -130,7 +130,8 @@ def _flown(
 
 def _endless(tick: int, planner: object, reactors: list[TeleoReactor]) -> str:
     """Who searches without an end, and what stands in the way most often; where nothing does, what it plans most of."""
-    assert isinstance(planner, Planner)
+    if not isinstance(planner, Planner):
+        return f"nobody was in the middle of a search at tick {tick}"
     planned = _most_planned([one for one in reactors if isinstance(one, PlanReactor) and one.planner is planner])
     span, others, count, failures = planner.most_blamed()
     found = f"`{planner.bench.name}` found no end of its search at tick {tick}"

@@ -6,8 +6,8 @@ from runtime.executive.deferral cimport Deferral
 from runtime.executive.dispatch cimport Dispatch
 from runtime.executive.goals cimport Goals
 from runtime.executive.holding cimport is_blocked
-from runtime.executive.past cimport Past
 from runtime.executive.lasting cimport last_until
+from runtime.executive.past cimport Past
 from runtime.executive.planning cimport Planner
 from runtime.executive.reactor cimport TeleoReactor
 from runtime.executive.synchronise cimport synchronise

@@ -205,7 +205,7 @@ class Planner:
             return EPISODE_DONE
         self._begin(tick, end)
         outcome = self.solver.step()
-        TIME_LIMIT.check(self)
+        TIME_LIMIT.check(None if outcome == PLAN else self)
         if outcome == PLAN and self.window.left_open and self.window.is_any_bound():
             self.pause()
             return EPISODE_MOVED
@@ -265,7 +265,7 @@ class Planner:
         depth = _MOST_STEPS if self.max_depth is None else self.max_depth
         made = solver.steps + solver.failures
         outcome = solver.solve(steps, depth, TIME_LIMIT.is_over)
-        TIME_LIMIT.check(self)
+        TIME_LIMIT.check(None if outcome == PLAN else self)
         solver.max_steps = solver.max_depth = _NO_LIMIT
         self.resolved = _NEVER
         is_deep = solver.depth > depth
@@ -310,8 +310,8 @@ class Planner:
             if found is not None:
                 self.rejections[token] = found
         self.solver.refresh()
-        self.solver.solve(_NO_LIMIT, _NO_LIMIT, TIME_LIMIT.is_over)
-        TIME_LIMIT.check(self)
+        outcome = self.solver.solve(_NO_LIMIT, _NO_LIMIT, TIME_LIMIT.is_over)
+        TIME_LIMIT.check(None if outcome == PLAN else self)
 
     def most_blamed(self) -> tuple[Span | None, int, int, int]:
         """The line that stands in the way most often in the first decisions of the window, how many others do as often,

@@ -78,3 +78,14 @@ def test_a_failure_is_named_however_slow_the_machine_is() -> None:
         TIME_LIMIT.lasting(100.0, lambda: next(slow)),
     ):
         flown(planner("planner", MODEL, "job"), until=60, goals=(goal,))
+
+
+def test_no_search_is_blamed_for_time_that_something_else_took() -> None:
+    """The present had its plan when time was over: it was said to have found no end."""
+    model = MODEL[: MODEL.index("Job::Fill")] + "Job job = new Job(Internal);\nclose();\n"
+    hours = count(0.0, 60.0)
+    with (
+        pytest.raises(OutOfTimeError, match="took longer than 1 s: nobody was in the middle of a search at tick 0"),
+        TIME_LIMIT.lasting(1.0, lambda: next(hours)),
+    ):
+        flown(planner("planner", model, "job"), until=60)

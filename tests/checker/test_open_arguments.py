@@ -5,6 +5,7 @@ from typing import Any
 
 import pytest
 
+from runtime.executive.configuration import TokenPattern
 from runtime.executive.record import ValueRange
 from tests.checker.test_properties import down, fate, token
 
@@ -31,3 +32,8 @@ def test_of_an_argument_that_was_never_decided_all_values_count(
     found = fate(kind, down(where, **parameters), tokens=(one,))
     assert (found.is_kept, found.margin) == (margin >= 0.0, margin)
     assert found.seen == ("" if found.is_kept else "`depth` was never decided (42 to 50)")
+
+
+def test_an_argument_that_a_token_does_not_have_is_none_that_was_never_decided() -> None:
+    found = fate("always", TokenPattern("dive", "", (("depth", 42.0),)), tokens=(token("dive", "Dive.Up", 10, 30),))
+    assert not found.is_kept and found.seen == ""
