@@ -8,8 +8,12 @@ from runtime.executive.workbench cimport Workbench
 cdef long long NOTHING, SPAN_EXECUTIVE, SPAN_OBSERVATION
 
 
-@cython.locals(line=TimelineState, mark="long long", span="long long", token="long long")
+@cython.locals(mark="long long")
 cpdef object last_until(Workbench bench, list timelines, long long tick)
+
+
+@cython.locals(line=TimelineState, span="long long")
+cpdef object go_on(Workbench bench, list timelines, long long tick)
 
 
 @cython.locals(following="long long", line=TimelineState)

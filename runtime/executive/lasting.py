@@ -10,23 +10,22 @@ from runtime.executive.workbench import Workbench
 
 
 def last_until(bench: Workbench, timelines: list[TimelineState], tick: int) -> SyncFailure | None:
-    """What holds has gone on while the reactor slept, to `tick`; on failure the plan stays as it was."""
-    mark = NOTHING
+    """What holds has gone on to `tick`, for good; on failure the plan stays as it was."""
+    mark = bench.mark()
+    failure = go_on(bench, timelines, tick)
+    if failure is not None:
+        bench.rewind_to(mark)
+    bench.commit()
+    return failure
+
+
+def go_on(bench: Workbench, timelines: list[TimelineState], tick: int) -> SyncFailure | None:
+    """What holds has gone on while the reactor slept; on failure the caller rewinds."""
     for line in timelines:
-        token = line.current
-        if token == NOTHING or bench.lower(bench.end(token)) >= tick:
-            continue
-        if mark == NOTHING:
-            mark = bench.mark()
         span = SPAN_EXECUTIVE if line.is_internal else SPAN_OBSERVATION
-        if not bench.at_least(bench.end(token), tick, span, token):
-            what = Reason(ReasonKind.CANNOT_GO_ON, bench.name_of(token), tick=tick)
-            failure = SyncFailure("F3" if line.is_internal else "F1", (line.name,), what, conflict_of(bench))
-            bench.rewind_to(mark)
-            bench.commit()
-            return failure
-    if mark != NOTHING:
-        bench.commit()
+        if line.current != NOTHING and not bench.at_least(bench.end(line.current), tick, span, line.current):
+            what = Reason(ReasonKind.CANNOT_GO_ON, bench.name_of(line.current), tick=tick)
+            return SyncFailure("F3" if line.is_internal else "F1", (line.name,), what, conflict_of(bench))
     return None
 
 

@@ -200,8 +200,8 @@ class PlanReactor(TeleoReactor):
         )
 
     def _prepare(self, tick: int) -> SyncFailure | None:
-        """Let last what held while it slept; draw anew what was drawn for a tick at which its token does not begin."""
-        failure = last_until(self.bench, self.timelines, tick)
+        """Draw anew, by what holds till now, what was drawn for a tick at which its token does not begin."""
+        failure = last_until(self.bench, self.timelines, tick) if self.draws.open else None
         if failure is None and not draw_anew(self.bench, self.draws, self.goals, tick):
             return SyncFailure("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))
         return failure

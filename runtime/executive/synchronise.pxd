@@ -2,7 +2,7 @@
 
 cimport cython
 from runtime.executive.dispatch cimport Dispatch
-from runtime.executive.lasting cimport persist
+from runtime.executive.lasting cimport go_on, persist
 from runtime.executive.planning cimport Planner
 from runtime.executive.timelines cimport TimelineState
 from runtime.executive.workbench cimport Workbench

@@ -7,7 +7,7 @@ chronologically. Where that takes long, a timeline on which nothing fits is deci
 from dataclasses import replace
 
 from runtime.executive.dispatch import Dispatch
-from runtime.executive.lasting import persist
+from runtime.executive.lasting import go_on, persist
 from runtime.executive.messages import Observation
 from runtime.executive.outcome import ChoiceKind, Deadlock, FailedChoice, PresentChoice, Reason, ReasonKind
 from runtime.executive.planning import EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, Planner
@@ -42,6 +42,9 @@ def synchronise(
     The present token is kept as long as it may; but a token that somebody asked for starts as soon as it may, and so
     does any on a timeline that is early. `asked` tells what an owner will not do. On failure the caller rewinds.
     """
+    failed = go_on(bench, timelines, tick)
+    if failed is not None:
+        return failed
     if not bench.set_clock(tick):
         return SyncFailure("F3", (), Reason(ReasonKind.CLOCK, tick=tick), conflict_of(bench))
     failed = persist(bench, timelines, tick, asked)
