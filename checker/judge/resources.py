@@ -88,26 +88,27 @@ def _uses_of(bench: Bench, resource: str) -> Iterator[_ResourceUse]:
     """
     uses = list(_recorded(bench, resource))
     cuts = _cuts_of(bench) if any(tok is not None and tok.is_outdated for tok, _ in uses) else {}
-    known: set[tuple[float, float]] = set()  # what was added at a time, by tokens that are cut off
+    known: dict[tuple[float, float], int] = {}  # what was added at a time, by the first token that is cut off
     for tok, use in uses:
         if tok is not None and tok.is_outdated and use.end is None and use.start <= tok.record.tick:
-            known.add((use.start, use.amount))
+            told = (use.start, use.amount)
+            known[told] = min(known.get(told, tok.key), tok.key)
     for tok, use in uses:
         if tok is None:
             yield use
-        elif tok.is_outdated:
+            continue
+        since = max((tick for tick, key in cuts.items() if tok.key > key), default=-inf)
+        if use.end is None and use.start < since and known.get((use.start, use.amount), tok.key) < tok.key:
+            continue
+        if tok.is_outdated:
             until = float(tok.standing.record.tick if tok.standing.is_cut else tok.record.tick)
             if use.earliest > until or (use.end is None and use.start > until):
                 continue
             ends = (None, inf) if use.end is None else (min(use.end, until), min(use.latest, until))
-            yield replace(use, start=min(use.start, until), end=ends[0], latest=ends[1])
-        else:
-            since = max((tick for tick, key in cuts.items() if tok.key > key), default=-inf)
-            if use.end is None and use.start < since and (use.start, use.amount) in known:
-                continue
-            if use.end is not None:
-                use = replace(use, earliest=max(use.earliest, since), start=max(use.start, since))
-            yield use
+            use = replace(use, start=min(use.start, until), end=ends[0], latest=ends[1])
+        if use.end is not None:
+            use = replace(use, earliest=max(use.earliest, since), start=max(use.start, since))
+        yield use
 
 
 def _cuts_of(bench: Bench) -> dict[int, int]:

@@ -81,3 +81,19 @@ def test_what_a_repair_plans_anew_is_no_second_use(is_anew: bool, other: tuple[i
     record = MissionRecord((reactor._replace(tokens=tuple(tokens)),))
     report = judge_mission(mission.agent, mission.programs, mission.outcome, record)
     assert sum(one.kind == "level" for one in report.disagreements) == found
+
+
+def test_what_is_cut_off_twice_was_planned_anew_in_between() -> None:
+    """Repairs at ticks 8 and 11 cut off the same use of all there is; what it shared with another was before."""
+    mission = flown(planner("planner", HOSE, "work"), until=30, goals=BOTH)
+    (reactor,) = mission.record.reactors
+    water, wash = [one for one in reactor.tokens if one.predicate == "Reusable.uses"]
+    newest = max(one.key for one in reactor.tokens)
+    half = water._replace(arguments=(1.0,), start=4, end=13, duration=9)
+    told = [(half, "cut", 8), (wash._replace(start=3, end=7, duration=4), "cut", 8)]
+    told += [(half._replace(start=3), "cut", 11), (half, "over", 13)]
+    tokens = [one for one in reactor.tokens if one.predicate != "Reusable.uses"]
+    tokens += [one._replace(key=newest + 1 + at, fate=fate, tick=tick) for at, (one, fate, tick) in enumerate(told)]
+    record = MissionRecord((reactor._replace(tokens=tuple(tokens)),))
+    report = judge_mission(mission.agent, mission.programs, mission.outcome, record)
+    assert not [disagreement_text(one) for one in report.disagreements if one.kind == "level"]
