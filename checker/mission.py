@@ -268,6 +268,11 @@ def _read_reactors(
                 span = table.text.value_span((*table.path, "external", index))
                 complaint = NO_OWNER.at(span, timeline=timeline, help=_suggest(timeline, [*owners]))
                 table.text.diagnostics.append(respelt(complaint, timeline, owners))
+            elif timeline in reactor.internal and timeline not in twins:
+                span = table.text.value_span((*table.path, "external", index))
+                help_ = f"`{reactor.name}` owns it: remove it from `internal` or from `external`"
+                table.text.diagnostics.append(TWICE.at(span, what="the timeline", name=timeline, help=help_))
+                twins.add(timeline)
     cycle = _find_cycle(reactors, {timeline: name for timeline, (name, _) in owners.items() if timeline not in twins})
     if cycle:
         span = tables[0].text.key_span(tables[0].path)

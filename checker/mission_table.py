@@ -81,6 +81,7 @@ _OTHER_WORDS = {
     **dict.fromkeys(("min", "max", "bounds", "interval", "domain"), "range"),
     **dict.fromkeys(("gauss", "gaussian"), "normal"),
     **dict.fromkeys(("required", "must"), "mandatory"),
+    **dict.fromkeys(("type", "sort"), "kind"),
     **dict.fromkeys(("count", "runs", "trials", "n", "number"), "missions"),
     **dict.fromkeys(("file", "source", "nddl"), "model"),
     **dict.fromkeys(("owns", "publishes"), "internal"),
@@ -269,6 +270,12 @@ class Table:
         self._complain_of_type(key, value, f"an array of tables, [[{key}]]")
         return []
 
+    def complain_of_missing(self, key: str) -> None:
+        """Report that a key is not written, unless another one stands for it, of which `close` tells."""
+        if key not in self.values and self._misspelt(key) is None:
+            span = self.text.key_span(self.path)
+            self.text.diagnostics.append(MISSING_KEY.at(span, table=self.caption, key=key))
+
     def complain_of_type(self, key: str, wanted: str) -> None:
         """Report a value of a type that cannot be."""
         self._complain_of_type(key, self.values.get(key), wanted)
@@ -286,9 +293,8 @@ class Table:
         self.asked.append(key)
         if key not in self.values and needed and (meant := self._misspelt(key)) is not None:
             return self.values[meant]  # `close` tells
-        if key not in self.values and needed and not self.is_told:
-            span = self.text.key_span(self.path)
-            self.text.diagnostics.append(MISSING_KEY.at(span, table=self.caption, key=key))
+        if needed and not self.is_told:
+            self.complain_of_missing(key)
         return self.values.get(key)
 
     def _misspelt(self, key: str, but: str | None = None) -> str | None:

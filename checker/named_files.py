@@ -35,7 +35,9 @@ def _with_file_meant(complaint: Diagnostic, root: Path, file: str) -> Diagnostic
     folder = (root / file).parent
     if not folder.is_dir():
         return replace(complaint, help="paths are relative to the mission file")
-    close = nearest(Path(file).name, sorted(path.name for path in folder.iterdir()))
+    names = sorted(path.name for path in folder.iterdir())
+    named = [name for name in names if Path(name).stem == Path(file).name]  # without its ending
+    close = named[0] if len(named) == 1 else nearest(Path(file).name, names)
     if close is None:
         return complaint
     meant = (Path(file).parent / close).as_posix()

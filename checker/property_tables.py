@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 
-from checker.codes import MISSING_KEY, NO_OWNER, TWICE
+from checker.codes import NO_OWNER, TWICE
 from checker.mission_table import Table
 from checker.respelt import respelt
 from nddl_lang.text.nearest import nearest
@@ -26,9 +26,7 @@ def read_properties(tables: list[Table], owned: tuple[str, ...]) -> tuple[Proper
     for table in tables:
         name = table.string("name")
         kind = PropertyKind(table.choice("kind", tuple(PropertyKind), PropertyKind.ALWAYS))
-        if not table.has("kind"):
-            span = table.text.key_span(table.path)
-            table.text.diagnostics.append(MISSING_KEY.at(span, table=table.caption, key="kind"))
+        table.complain_of_missing("kind")
         if name in [one.name for one in found]:
             span = table.text.value_span((*table.path, "name"))
             table.text.diagnostics.append(TWICE.at(span, what="the property", name=name))
@@ -44,9 +42,8 @@ def read_properties(tables: list[Table], owned: tuple[str, ...]) -> tuple[Proper
         then = _read_pattern(inner, owned) if inner.values else None
         inner.close()
         ticks = table.whole("ticks", 0, 1) if table.has("ticks") or kind is PropertyKind.WITHIN else 0
-        if kind is PropertyKind.WITHIN and not table.has("ticks"):
-            span = table.text.key_span(table.path)
-            table.text.diagnostics.append(MISSING_KEY.at(span, table=table.caption, key="ticks"))
+        if kind is PropertyKind.WITHIN:
+            table.complain_of_missing("ticks")
         table.asked += ["by", "ticks"]
         is_known = table.values.get("kind") in tuple(PropertyKind)
         if is_known and kind not in _NEEDS_THEN and then is not None:
@@ -76,9 +73,8 @@ def _read_pattern(table: Table, owned: tuple[str, ...]) -> TokenPattern:
 
 
 def _read_level(table: Table) -> LevelPattern:
-    if not table.has("level") and not table.has("margin"):
-        span = table.text.key_span(table.path)
-        table.text.diagnostics.append(MISSING_KEY.at(span, table=table.caption, key="level"))
+    if not table.has("margin"):
+        table.complain_of_missing("level")
     bounds = table.bounds("level") or (-math.inf, math.inf)
     return LevelPattern(table.string("resource"), table.string("reactor", ""), bounds, table.number("margin", 0.0, 0.0))
 

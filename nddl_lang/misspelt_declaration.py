@@ -75,6 +75,36 @@ def name_misspelt_declaration(
     return tuple(kept for each in found if (kept := told.get(each, each)) is not None)
 
 
+def name_misspelt_part(
+    sources: Sequence[Source], found: Sequence[Diagnostic], declared: Iterable[Identifier], parts: frozenset[Source]
+) -> tuple[Diagnostic, ...]:
+    """Like `name_misspelt_declaration`, of all models that include the `parts`: a name that one of these declares."""
+    groups: dict[tuple[str, str], list[Diagnostic]] = {}
+    for each in found:
+        if each.code in _CODES and (meant := _meant(each)) is not None:
+            groups.setdefault((each.span.text, meant), []).append(each)
+    asked = {name for _, name in groups}
+    places: dict[str, dict[tuple[str, int], Identifier]] = {}
+    for identifier in declared:
+        if identifier.name in asked:
+            place = identifier.span.source.name, identifier.span.begin
+            places.setdefault(identifier.name, {}).setdefault(place, identifier)
+    texts = tuple({each.name: each for each in sources}.values())
+    told: dict[Diagnostic, Diagnostic | None] = {}
+    for (used, name), complaints in groups.items():
+        declarations = tuple(places.get(name, {}).values())
+        is_type = any(each.code in _TYPES for each in complaints)
+        is_built = any(each.code is CONSTRUCTOR_NAME for each in complaints)  # its own constructor has the other name
+        if len(complaints) < _FEWEST or not declarations or declarations[0].span.source not in parts:
+            continue
+        uses = sum(_words(text).get(name, 0) for text in texts if name in text.text)
+        is_unused = is_built or uses == len(declarations)
+        if is_unused and (is_type or len(declarations) == 1):
+            told |= dict.fromkeys(complaints)
+            told[complaints[0]] = _told_there(declarations[0], used, complaints)
+    return tuple(kept for each in found if (kept := told.get(each, each)) is not None)
+
+
 def _meant(complaint: Diagnostic) -> str | None:
     """The name that the complaint proposes to write in place of the one it is about."""
     edits = complaint.fixes[0].edits if complaint.fixes else ()

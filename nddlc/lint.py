@@ -105,6 +105,7 @@ def command(
             seen.add(key)
             found.append(each)
             has_failed |= settings.fail_on is not None and at_least(each.severity, settings.fail_on)
+    found = list(checker.gathered(found))
     _tell(found, [str(path) for path in paths], style, mended, statistics)
     return int(has_failed)
 

@@ -1,6 +1,7 @@
 """Files in, all that is wrong with them by the settings of their project out."""
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,9 +10,11 @@ from nddl_lang.lint.linter import Linter
 from nddl_lang.lint.mending import Mended, mend
 from nddl_lang.lint.settings import Settings
 from nddl_lang.lint.unused import OF_ALL_MODELS
+from nddl_lang.misspelt_declaration import name_misspelt_part
 from nddl_lang.syntax.codes import UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import load_module_graph
+from nddl_lang.syntax.nodes import Identifier
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.read import decode, read_named, read_text, real_path
 from nddl_lang.text.source import Anchor, Source, Span
@@ -36,6 +39,8 @@ class Checker:
         self._part_of: dict[Source, Path] = {}
         self._readers: Counter[Path] = Counter()
         self._votes: Counter[tuple[Path, int, str]] = Counter()
+        self._sources: list[Source] = []
+        self._declared: list[Identifier] = []
 
     def check(self, path: Path, settings: Settings) -> tuple[Diagnostic, ...]:
         """All that is wrong with a file and what it includes, and if that is that it cannot be read."""
@@ -60,6 +65,10 @@ class Checker:
             return True
         return self._votes[part, finding.span.begin, finding.code.id] == self._readers[part]
 
+    def gathered(self, found: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
+        """`found` in all models, where a name that a shared file misspells is told once, at its declaration."""
+        return name_misspelt_part(self._sources, found, self._declared, frozenset(self._part_of))
+
     def _part(self, finding: Diagnostic) -> Path | None:
         return self._part_of.get(finding.span.source)
 
@@ -80,4 +89,8 @@ class Checker:
             if included is not source and (part := real_path(place)) in self._parts:
                 self._part_of[included] = part
                 self._readers[part] += is_counted
-        return tuple(settings.choose(Linter(self._parts).lint(Analyser(settings.callables).analyse(loaded))))
+        analysis = Analyser(settings.callables).analyse(loaded)
+        if is_counted and analysis.has_errors:
+            self._sources += loaded.sources
+            self._declared += (name for tables in analysis.by_statement.values() for name in tables.declared)
+        return tuple(settings.choose(Linter(self._parts).lint(analysis)))

@@ -78,7 +78,7 @@ def _fitting(draw: _DrawSite) -> Finding:
         notes = (Note(f"`{variable.name}` is declared here", variable.span),)
         kind = variable.type.kind
         if domains.is_single(range_):
-            help_ = "give it a range, or use the value without `sampledParameter`"
+            help_ = f"give it a range, as in `{variable.name} = [1 5]`, or use the value without `sampledParameter`"
             return NEVER_VARIED.at(draw.span, notes=notes, help=help_, name=draw.name, value=domains.text(range_))
         if draw.domain is not None and not domains.is_within(range_, draw.domain, kind):
             help_ = "a mission that draws a value outside of it fails"

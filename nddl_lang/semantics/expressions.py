@@ -18,7 +18,15 @@ from nddl_lang.semantics.codes import (
 from nddl_lang.semantics.constraints import Origin
 from nddl_lang.semantics.functions import OTHER_FUNCTIONS, FunctionRow, ResultKind
 from nddl_lang.semantics.literals import number
-from nddl_lang.semantics.meant import number_meant, parameter_meant, relation_meant, value_meant, variable_meant
+from nddl_lang.semantics.meant import (
+    is_token_in,
+    number_meant,
+    parameter_meant,
+    relation_meant,
+    time_meant,
+    value_meant,
+    variable_meant,
+)
 from nddl_lang.semantics.names import name_beside, resolve_value, suggest_name
 from nddl_lang.semantics.natives import TIME_NAMES
 from nddl_lang.semantics.sampled import sampled_parameter
@@ -139,9 +147,15 @@ def _binary_type(context: Context, binary: BinaryExpr, left: Type | None, right:
     if op in _ORDERS:
         for side, type_ in ((binary.left, left), (binary.right, right)):
             if type_ is not None and type_.kind not in COUNTABLE:
+                if left is None and is_token_in(context, binary.left):
+                    break  # told of the left side
                 help_, fixes = relation_meant(context, binary)
                 text, found = side.span.text, phrase(type_)
-                context.complain(NO_ORDER.at(side.span, op=op, text=text, found=found, help=help_, fixes=fixes))
+                context.complain(
+                    NO_ORDER.at(
+                        side.span, op=op, text=text, found=found, help=help_ or time_meant(context, side), fixes=fixes
+                    )
+                )
                 break
         return BOOL
     if op in _LOGIC:
@@ -195,7 +209,10 @@ def _is_sum_of_times(context: Context, expression: Expr) -> bool:
 def _arithmetic_type(context: Context, binary: BinaryExpr, left: Type | None, right: Type | None) -> Type | None:
     for side, type_ in ((binary.left, left), (binary.right, right)):
         if type_ is not None and type_.kind not in NUMBERS:
-            context.complain(NOT_A_NUMBER.at(side.span, op=binary.op, text=side.span.text, found=phrase(type_)))
+            complaint = NOT_A_NUMBER.at(
+                side.span, op=binary.op, text=side.span.text, found=phrase(type_), help=time_meant(context, side)
+            )
+            context.complain(complaint)
             return None
     if left is None or right is None:
         return None

@@ -6,8 +6,9 @@ from nddl_lang.semantics.natives import builtin_type
 from nddl_lang.semantics.schema import Kind, TokenReference, Type
 from nddl_lang.semantics.scope import Context
 from nddl_lang.semantics.types import comparable
-from nddl_lang.syntax.nodes import BinaryExpr, CallExpr, Expr, StringLiteral
+from nddl_lang.syntax.nodes import BinaryExpr, CallExpr, Expr, StringLiteral, UnaryExpr
 from nddl_lang.text.diagnostic import Edit, Fix
+from nddl_lang.text.nearest import nearest
 
 _QUOTED = {Kind.INT: re.compile(r"[-+]?\d+"), Kind.FLOAT: re.compile(r"[-+]?\d+(?:\.\d+)?")}
 
@@ -46,22 +47,59 @@ def number_meant(side: Expr, other: Type) -> tuple[Fix, ...]:
 
 
 def value_meant(context: Context, side: Expr, other: Type) -> tuple[Fix, ...]:
-    """A value of an enum in quotes without them, where it is compared with that enum."""
-    enum = context.symbols.find_enum(other.base) if isinstance(side, StringLiteral) else None
-    if enum is None or not isinstance(side, StringLiteral) or side.value not in enum.values:
+    """A value of an enum in quotes, or an object, without them, where it is compared with that enum or class."""
+    if not isinstance(side, StringLiteral):
         return ()
-    text = f"{enum.name}.{side.value}"
+    symbols = context.symbols
+    if (enum := symbols.find_enum(other.base)) is not None:
+        value = side.value if side.value in enum.values else nearest(side.value, enum.values)
+        text = f"{enum.name}.{value}" if value is not None else None
+    else:
+        named = symbols.find_global(side.value) if other.kind is Kind.OBJECT else None
+        text = side.value if named is not None and comparable(named.type, other, symbols.is_subclass) else None
+    if text is None:
+        return ()
     return (Fix(f"write `{text}`", (Edit(side.span, text),), safe=False),)
 
 
 def variable_meant(context: Context, call: CallExpr) -> tuple[str | None, tuple[Fix, ...]]:
-    """How a variable of a token is written, where it is called like a function: `duration(a)`; else nothing."""
+    """How a variable of a token or object is written that is called like a function: `duration(a)`; else nothing."""
     argument = call.arguments[0] if len(call.arguments) == 1 else None
     reference = context.tables.references.get(argument) if argument is not None else None
-    if argument is None or not isinstance(reference, TokenReference):
+    name = call.function.name
+    if argument is None or reference is None:
         return None, ()
-    name, predicate = call.function.name, reference.label.predicate
-    if builtin_type(name, predicate) is None and all(name != each.name for each in predicate.parameters):
+    if isinstance(reference, TokenReference):
+        predicate = reference.label.predicate
+        is_known = builtin_type(name, predicate) is not None or name in [each.name for each in predicate.parameters]
+    else:
+        type_ = context.tables.types.get(argument)
+        is_object = type_ is not None and type_.kind is Kind.OBJECT
+        is_known = type_ is not None and is_object and context.symbols.find_member(type_.base, name) is not None
+    if not is_known:
         return None, ()
     text = f"{argument.span.text}.{name}"
     return f"write `{text}`", (Fix(f"write `{text}`", (Edit(call.span, text),), safe=False),)
+
+
+def time_meant(context: Context, operand: Expr) -> str | None:
+    """What to write for a token where a number is wanted; None where the operand is something else."""
+    if not isinstance(context.tables.references.get(operand), TokenReference):
+        return None
+    text = operand.span.text
+    return f"`{text}` is a token: its times are `{text}.start`, `{text}.end` and `{text}.duration`"
+
+
+def is_token_in(context: Context, operand: Expr) -> bool:
+    """Whether a sum or the like has a token as a part."""
+    waiting = [operand]
+    while waiting:
+        part = waiting.pop()
+        match part:
+            case BinaryExpr(left=left, right=right):
+                waiting += (left, right)
+            case UnaryExpr(operand=inner):
+                waiting.append(inner)
+            case _ if isinstance(context.tables.references.get(part), TokenReference):
+                return True
+    return False

@@ -40,10 +40,11 @@ from nddl_lang.text.source import Span
 
 TOKEN_OF_SCRIPT = "`{name}` is a token of the script; rules and predicates see only tokens of their own"
 
-_MOST_NAMED = 8  # names that a help lists
+MOST_NAMED = 8  # names that a help lists
 _VALUE_TABLES = ("global", "goal", "value")
 _COMPARISONS = frozenset(("==", "!=", "<", "<=", ">", ">="))
 _LITERALS = ("true", "false", "inf", "inff")
+_TRUTHS = {"yes": "true", "no": "false", "on": "true", "off": "false"}
 
 
 def resolve(
@@ -245,7 +246,7 @@ def complain_unknown_member(context: Context, class_name: str, name: Identifier,
         complaint = _with(complaint, f"`{class_name}` is only announced so far; define it above this place", ())
     members = [each for each in _members(context, class_name) if each != but]
     complaint = suggest_name(complaint, name, members)
-    if complaint.help is None and 0 < len(members) <= _MOST_NAMED:
+    if complaint.help is None and 0 < len(members) <= MOST_NAMED:
         named = ", ".join(f"`{member}`" for member in members)
         complaint = _with(complaint, f"its members are {named}" if len(members) > 1 else f"its member is {named}", ())
     context.complain(complaint)
@@ -309,10 +310,14 @@ def complain_unknown(
         if constructed is not None and _is_predicate(context, constructed, word):
             meant = f'"{word}"'
             help_ = f"a predicate is named in quotes: `{meant}`"
+        elif of_token := _variables_of_tokens(scope, word):
+            meant = of_token[0] if len(of_token) == 1 else None
+            help_ = f"say of which token: {' or '.join(f'`{each}`' for each in of_token)}"
         elif word == "self" and (scope.own is not None or constructed is not None):
             meant = "this"
         complaint = UNKNOWN_NAME.at(name.span, name=word, help=help_)
         last = other_name(word, scope.own.predicate) if scope.own is not None else None
+        last = last or _TRUTHS.get(word.casefold())
         candidates = [each for each in candidates if each != compared]
         complaint = suggest_name(complaint, name, candidates, meant, last if last != compared else None)
         if is_target and complaint.help is None:
@@ -322,6 +327,18 @@ def complain_unknown(
             fix = Fix(f"declare `{type_name} {word}`", (Edit(before, f"{type_name} "),), safe=False)
             complaint = _with(complaint, complaint.help or fix.title, (*complaint.fixes, fix))
         context.complain(complaint)
+
+
+def _variables_of_tokens(scope: Scope, name: str) -> list[str]:
+    """The variables of the tokens that a block names which are called so."""
+    found: list[str] = []
+    block: Scope | None = scope
+    while block is not None:
+        for label in block.labels.values():
+            if any(parameter.name == name for parameter in label.predicate.parameters):
+                found.append(f"{label.name}.{name}")
+        block = block.parent
+    return found
 
 
 def _is_predicate(context: Context, class_name: str, name: str) -> bool:

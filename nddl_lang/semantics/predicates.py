@@ -1,10 +1,17 @@
 """Declare predicates, and check their bodies: parameters, and constraints that hold for every token."""
 
-from nddl_lang.semantics.codes import BUILTIN_PARAMETER, DUPLICATE_PARAMETER, DUPLICATE_PREDICATE, FOREIGN_TARGET
+from nddl_lang.semantics.codes import (
+    BUILTIN_PARAMETER,
+    CLASS_AS_VALUE,
+    DUPLICATE_PARAMETER,
+    DUPLICATE_PREDICATE,
+    FOREIGN_TARGET,
+    UNKNOWN_NAME,
+)
 from nddl_lang.semantics.constraining import check_call_constraint, check_expression_constraint
-from nddl_lang.semantics.names import resolve
+from nddl_lang.semantics.names import find, resolve
 from nddl_lang.semantics.natives import builtin_type
-from nddl_lang.semantics.schema import Class, Label, Predicate, TokenVariableReference, Variable
+from nddl_lang.semantics.schema import Class, ClassReference, Label, Predicate, TokenVariableReference, Variable
 from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.typenames import find_type
 from nddl_lang.semantics.values import check_value
@@ -14,10 +21,13 @@ from nddl_lang.syntax.nodes import (
     CallConstraint,
     Declarator,
     ExprConstraint,
+    Identifier,
+    PathExpr,
     PredicateDecl,
     VariableDecl,
 )
 from nddl_lang.text.diagnostic import Note
+from nddl_lang.text.nearest import nearest
 
 
 def check_predicate(context: Context, owner: Class, node: PredicateDecl) -> None:
@@ -90,12 +100,35 @@ def _check_body(context: Context, scope: Scope, node: PredicateDecl, own: dict[D
                     _check_parameter(context, scope, declarator, own.get(declarator))
             case CallConstraint():
                 check_call_constraint(context, scope, statement)
+            case ExprConstraint(expression=PathExpr(parts=(name,))) if _is_half_declared(context, scope, name):
+                pass
             case ExprConstraint():
                 check_expression_constraint(context, scope, statement)
             case Assignment():
                 _check_assignment(context, scope, statement)
             case BrokenStatement(span=span):
                 scope.doubt(span.text)
+
+
+def _is_half_declared(context: Context, scope: Scope, name: Identifier) -> bool:
+    """Whether a name that stands alone is half the declaration of a parameter; then says which half is missing."""
+    reference = find(context, scope, name.name)
+    assert scope.own_class is not None
+    if isinstance(reference, ClassReference):
+        word = f"{name.name[:1].lower()}{name.name[1:]}"
+        help_ = f"a parameter has a name behind its type: `{name.name} {word};`"
+        complaint = CLASS_AS_VALUE.at(name.span, name=name.name, help=help_)
+    elif reference is None and not context.symbols.is_doubtful(name.name) and not nearest(name.name, scope.visible()):
+        word = name.name
+        help_ = f"a parameter has a type before its name: `int {word};`"
+        complaint = UNKNOWN_NAME.at(name.span, name=word, help=help_)
+    else:
+        return False
+    context.complain(complaint)
+    scope.doubt(word)
+    context.symbols.put_faulty(word)
+    context.symbols.put_partial(scope.own_class)
+    return True
 
 
 def _check_parameter(context: Context, scope: Scope, declarator: Declarator, parameter: Variable | None) -> None:

@@ -22,6 +22,7 @@ from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 
 _NAME = re.compile(r"[A-Za-z_$][A-Za-z0-9_$]*")
+_HYPHENATED = re.compile(r"[A-Za-z_$][\w$]*(?:-[\w$]+)+")
 
 
 @dataclass(eq=False, slots=True)
@@ -201,8 +202,8 @@ class Scope:
 
 
 def names_in(text: str) -> list[str]:
-    """The words of a text that could be names."""
-    return _NAME.findall(text)
+    """The words of a text that could be names, those with a hyphen also as they are mended."""
+    return [*_NAME.findall(text), *(each.replace("-", "_") for each in _HYPHENATED.findall(text))]
 
 
 def rule_scope(predicate: Predicate, rule: RuleDecl) -> Scope:

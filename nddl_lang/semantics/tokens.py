@@ -19,6 +19,7 @@ from nddl_lang.semantics.codes import (
 )
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.names import (
+    MOST_NAMED,
     TOKEN_OF_SCRIPT,
     complain_unknown,
     find,
@@ -220,6 +221,10 @@ def find_predicate(context: Context, owner: Class, name: Identifier, *, is_bare:
                 name.span, notes=notes, help=help_, fixes=fixes, owner=owner.name, name=name.name
             )
         complaint = suggest_name(complaint, name, own)
+        if not complaint.fixes and not is_bare and 0 < len(own) <= MOST_NAMED:
+            listed = ", ".join(f"`{each}`" for each in own)
+            named = f"its predicates are {listed}" if len(own) > 1 else f"its predicate is {listed}"
+            complaint = replace(complaint, help="; ".join(each for each in (named, complaint.help) if each))
         if is_bare and complaint.help is None:
             help_ = "the name of a token follows its predicate without a comma: `object.predicate name`"
             complaint = replace(complaint, help=help_)

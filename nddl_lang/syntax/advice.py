@@ -15,8 +15,12 @@ _OPERATORS = {
     "or": "write `||`",
     "not": "turn the comparison round, as in `x <= 5`, or write `x == false`",
     "then": "there is no `then`: what follows a condition stands in braces, `if (x > 5) { }`",
-    "elif": "write `else { if (...) { } }`",
+    "elif": "write `else if (...) { }`",
     "is": "write `==`",
+    "plus": "write `+`",
+    "minus": "write `-`",
+    "times": "write `*`",
+    "over": "write `/`",
 }
 _OF_EXPRESSIONS = frozenset((".", "<", "<=", ">", ">=", "!=", "+", "*", "/"))
 _LOOPS = ("for", "repeat", "until", "while")
@@ -45,7 +49,8 @@ def advise(kinds: list[str], texts: list[str], first: int, index: int) -> str | 
     kind = kinds[index]
     for at in (index, index - 1):
         if at >= first and kinds[at] == "IDENT" and (advice := advise_operator(texts[at])) is not None:
-            return advice
+            is_between = texts[at] == "not" and at > first and kinds[at - 1] in ("IDENT", ")")
+            return "write `!=`" if is_between else advice
     match kinds[first]:
         case "GOAL" if index == first + 1:
             return f"write `{texts[first]}(object.predicate name);`"

@@ -101,6 +101,11 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
         r"there are no pointers, and no `*`: `\1\4 \2\5`",
         r"\1\4 \2\5 \3;",
     ),
+    (
+        rf"new ({_N}) ({_N}) \((.*)\) ;",
+        r"an object is made so: `\1 \2 = new \1(\3);`",
+        r"\1 \2 = new \1(\3);",
+    ),
     (rf"(.*)\b({_N}) \. new \((.*)", r"an object is made by `new \2(...)`", r"\1new \2(\3"),
     (
         rf"(.*(?:=|in|==)) \( ({_NUMBER}) , ({_NUMBER}) \) ;",
@@ -111,6 +116,16 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
         rf"(.*(?:=|in|==)) (?:\[ )?({_NUMBER}) (?:to|\. \.|\. \. \.|-|:|;) ({_NUMBER}) (?:\] )?;",
         r"an interval is written `[\2 \3]`",
         r"\1 [\2 \3];",
+    ),
+    (
+        rf"typedef ({_TYPE}) (?:\( )?({_NUMBER}) (?:to |\. \. |\. \. \. |- |: |, )?({_NUMBER}) (?:\) )?({_N}) ;",
+        r"a domain stands in brackets: `typedef \1 [\2 \3] \4;`",
+        r"typedef \1 [\2 \3] \4;",
+    ),
+    (
+        rf"({_TYPE}|{_N}) ({_N}) - ({_N})(?: (=.*))? ;",
+        r"a name holds letters, digits and `_` only: `\1 \2_\3 \4;`",
+        r"\1 \2_\3 \4;",
     ),
     (rf"enum {_N} \{{? ?.*=.*", "an enum lists names, without numbers: `enum E { a, b }`", ""),
     (
@@ -186,6 +201,8 @@ def find_idiom(b: Builder, first: int, index: int, is_inside: bool) -> Idiom | N
     """
     if b.kinds[first] in ("}", END):
         return None
+    if b.kinds[first] == "(" and b.kinds[max(0, first - 2) : first] == ["::", "IDENT"]:
+        first -= 3  # the statement begins behind the head of a rule, which may stand without braces
     last = first
     ends = ("}", END) if b.kinds[first] == "enum" else (";", "{", END)
     while b.kinds[last] not in ends and last - first < _MOST_WORDS:

@@ -27,11 +27,13 @@ _REAL = re.compile(
     r"[+-]?[0-9]+(?:\.[0-9]*(?:[eE][+-]?[0-9]+)?[fFdD]?|[eE][+-]?[0-9]+[fFdD]?|[fFdD])"
     r"|\.[0-9]+(?:[eE][+-]?[0-9]+)?[fFdD]?"
 )
+_BOUNDS = re.compile(r"([+-]?[0-9]+(?:\.[0-9]+)?)\.{2,3}([+-]?[0-9]+(?:\.[0-9]+)?)")
 _HEXADECIMAL = re.compile(r"([+-]?)0[xX]([0-9a-fA-F]{1,16})[lL]?")
 _OCTAL = re.compile(r"([+-]?)0+([0-7]{1,22})[lL]?")
 _LEADING_DIGITS = re.compile(r"[+-]?[0-9]{1,16}")
 _ESCAPE = re.compile(r"\\(?:[btnfr\"'\\]|u[0-9a-fA-F]{4}|[0-7]|(.)|\Z)", re.DOTALL)
 _AFTER_STRING = re.compile(r"[ \t\r\n\f]*+(?:[;,)}\]:=!<>&|+\-*/]|\Z)")
+_INCLUDES = ("include", "import", "use", "using", "require", "load")
 _NEARLY_INCLUDE = re.compile(r"(#[ \t]*([A-Za-z]+))[ \t]*\"")
 _CONSTANT = re.compile(r"#[ \t]*define[ \t]+([A-Za-z_$][\w$]*)[ \t]+([-+]?[0-9][\w.]*)(?=\s*(?://|/\*|$))")
 _EXCERPT = 24
@@ -84,7 +86,7 @@ def excerpt(text: str) -> str:
     return shown if len(text) <= _EXCERPT else shown[:_EXCERPT] + "..."
 
 
-def read_number(piece: Piece, start: int, word: str, strict: bool) -> str:
+def read_number(piece: Piece, start: int, word: str, strict: bool, *, is_bound: bool = False) -> str:
     """The kind of the number `word`; what is no number is reported and counts as a whole one."""
     if _INTEGER.fullmatch(word):
         if len(word) > 9:
@@ -105,7 +107,11 @@ def read_number(piece: Piece, start: int, word: str, strict: bool) -> str:
     else:
         help_text: str | None = None
         fixes: tuple[Fix, ...] = ()
-        if ".." in word:
+        if (bounds := _BOUNDS.fullmatch(word)) is not None:
+            text = " ".join(bounds.groups()) if is_bound else f"[{bounds[1]} {bounds[2]}]"
+            help_text = f"an interval is written `[{bounds[1]} {bounds[2]}]`"
+            fixes = (Fix(f"write `{text}`", (Edit(piece.span(start, end), text),)),)
+        elif ".." in word:
             help_text = "an interval is written `[1 5]`"
         elif word.strip("+-").isdecimal():
             help_text = f"write `{excerpt(word.lstrip('+-').lstrip('0'))}`: numbers have no leading zeros"
@@ -197,7 +203,7 @@ def read_quoted(piece: Piece, start: int, word: str) -> str:
 def misspelt_include(word: str) -> str | None:
     """The beginning of a directive that was meant to be `#include`; None where it is another one."""
     found = _NEARLY_INCLUDE.match(word)
-    return found[1] if found is not None and (found[2] == "include" or nearest(found[2], ["include"])) else None
+    return found[1] if found is not None and (found[2] in _INCLUDES or nearest(found[2], ["include"])) else None
 
 
 def read_directive(piece: Piece, start: int, word: str) -> None:

@@ -161,10 +161,16 @@ def _misplaced(b: Builder, statement: Any, block: BlockGrammar) -> BrokenStateme
             at = between.start + between.text.index("=")
             end = between.end + 1 if is_negated else at + 1
             fixes = (Fix(f"write `{sign}`", (Edit(Span(b.anchor, at, end), sign),)),)
+    elif isinstance(statement, ExprConstraint) and block is CLASS and (meant := _pointer(statement)) is not None:
+        help_text = f"there are no pointers, and no `*`: `{meant}`"
+        fixes = (Fix(f"write `{meant}`", (Edit(span, meant),), safe=False),)
     elif isinstance(statement, CallConstraint | ExprConstraint) and block is CLASS:
         help_text = "put it into a predicate or a rule; a constructor needs a body: `{ }`"
     elif isinstance(statement, CallConstraint) and block is CONSTRUCTOR and nearest(statement.name.name, ["super"]):
         help_text = "did you mean `super`?"
+    elif isinstance(statement, CallConstraint) and b.kinds[2:3] == ["extends"] and b.texts[3] == statement.name.name:
+        help_text = "the constructor of the base class is called by `super(...)`"
+        fixes = (Fix("write `super`", (Edit(statement.name.span, "super"),), safe=False),)
     elif isinstance(statement, CallConstraint | ExprConstraint) and block is CONSTRUCTOR:
         help_text = "a constructor gives members their values: write `member = value;`"
         match statement:
@@ -185,6 +191,14 @@ def _misplaced(b: Builder, statement: Any, block: BlockGrammar) -> BrokenStateme
         help_text = "declare it as a member of the class"
     b.report(MISPLACED, head_of(span), what=_NAMES[type(statement)], where=block.where, help=help_text, fixes=fixes)
     return broken
+
+
+def _pointer(statement: ExprConstraint) -> str | None:
+    """The declaration that `Class* name;` was meant to be, which reads as a product."""
+    match statement.expression:
+        case BinaryExpr(op="*", left=PathExpr(parts=(type_,)), right=PathExpr(parts=(name,))):
+            return f"{type_.name} {name.name};"
+    return None
 
 
 def head_of(span: Span) -> Span:

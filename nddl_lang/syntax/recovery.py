@@ -36,6 +36,8 @@ from nddl_lang.syntax.reserved_names import read_as_name
 from nddl_lang.syntax.rewrites import close_block, link_tokens, rewrite
 from nddl_lang.syntax.skipping import end_of_statement, unclosed_block
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS
+from nddl_lang.syntax.turned_signs import end_at_colon, turn_signs
+from nddl_lang.syntax.untyped import type_parameters
 from nddl_lang.syntax.words import KINDS, RESERVED
 from nddl_lang.text.diagnostic import Code, Edit, Fix, Note
 from nddl_lang.text.source import Span
@@ -44,8 +46,6 @@ _STATEMENT_WORDS = frozenset(
     ("BASETYPE", "class", "enum", "typedef", "GOAL", "predicate", "action", "if", "foreach", "#include", "filter")
 )
 _PUNCTUATION = frozenset("=,:.)]+-*/<>!") | {"==", "!=", "<=", ">=", "&&", "||", "::"}
-_TURNED = {("-", ">"): ".", (":", "="): "=", ("=", ">"): ">=", ("=", "<"): "<=", ("<", ">"): "!=", ("=", "!"): "!="}
-_PARTED = {("<", "="): "<=", (">", "="): ">=", ("!", "="): "!="}  # by blanks
 _VALUE_ENDS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", ")", "]", "}"))
 _LISTS = frozenset(("(", "SET"))
 _LITERALS = frozenset(("INT", "FLOAT", "STRING", "BOOL"))
@@ -83,8 +83,13 @@ class Recovery:
         if idiom is not None:
             return self._give_up(states, values, depth, first, index, idiom)
         if (
-            self._turn_comparison(first, index)
+            turn_signs(self._b, first, index, is_quiet=self._is_quiet)
             or self._end_declaration(first, index)
+            or (
+                self._may_begin_statement(index)
+                and end_at_colon(self._b, states, first, index, is_quiet=self._is_quiet)
+            )
+            or (not self._is_quiet and type_parameters(self._b, first, index))
             or (not self._is_quiet and self._reread_word(states[: depth + 1], values[:depth], first, index))
         ):
             del states[depth + 1 :]
@@ -173,34 +178,24 @@ class Recovery:
             self._report(EXPECTED, index, expected="`=`", found="`==`", help="write `=`", fixes=(fix,))
             kinds[index] = b.texts[index] = "="
             return True
+        if kinds[index] == "::" and kinds[index - 1] == "IDENT" and accepts(states, [".", *following]):
+            fix = Fix("write `.`", (Edit(b.at(index), "."),))
+            self._report(EXPECTED, index, expected="`.`", found="`::`", help="write `.`", fixes=(fix,))
+            kinds[index] = b.texts[index] = "."
+            return True
+        if kinds[index] == "[" and "]" in kinds[index:] and accepts(states, ["{", *following]):
+            closer = kinds.index("]", index)
+            fix = Fix("write `{ }`", (Edit(b.at(index), "{"), Edit(b.at(closer), "}")))
+            self._report(EXPECTED, index, expected="`{`", found="`[`", help="a block stands in braces", fixes=(fix,))
+            kinds[index], kinds[closer] = "{", "}"
+            return True
         if text in RESERVED and kinds[index] != "IDENT" and accepts(states, ["IDENT", *following]):
             fixes = read_as_name(b, index)
-            if text not in self._renamed:
+            if text not in self._renamed and kinds[index - 1] != ".":  # else it is told where it is declared
                 self._report(RESERVED_WORD, index, text=text, help="choose another name", fixes=fixes)
             self._renamed.add(text)
             return True
         return False
-
-    def _turn_comparison(self, first: int, index: int) -> bool:
-        """Read `=>`, `=<`, `<>`, `=!`, `:=`, `->`, `< =` and `! =` as the signs that they were meant to be."""
-        b, kinds = self._b, self._kinds
-        if kinds[index : index + 2] == ["!", "="]:
-            index += 1
-        pair = kinds[index - 1], kinds[index]
-        if index <= first or (pair not in _TURNED and pair not in _PARTED):
-            return False
-        span = b.span(index - 1, index)
-        written = span.text
-        sign = _TURNED.get(pair) if b.ends[index - 1] == b.starts[index] else _PARTED.get(pair)
-        if sign is None or "".join(written.split(" ")) != "".join(pair):
-            return False
-        if not self._is_quiet:
-            fix = Fix(f"write `{sign}`", (Edit(span, sign),))
-            b.report(SUPERFLUOUS, span, text=written, help=f"write `{sign}`", fixes=(fix,))
-        kinds[index] = b.texts[index] = sign
-        b.starts[index] = b.starts[index - 1]
-        b.remove(index - 1, index)
-        return True
 
     def _end_declaration(self, first: int, index: int) -> bool:
         """Read the comma before a type as the `;` that it was meant to be: `float metres, float weight;`."""

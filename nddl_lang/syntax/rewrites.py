@@ -13,7 +13,8 @@ _RULE = [".", "IDENT", "{"]
 _MEMBERS = frozenset(("predicate", "action", "}"))
 _HEADS = frozenset(("class", "if", "foreach", "enum", "predicate", "action"))
 _BETWEEN = "a relation stands between two tokens: `{text}`"
-_SIGNS = {"is": "==", "and": "&&", "or": "||"}
+_ELSE_IF = frozenset(("elif", "elsif", "elseif"))
+_SIGNS = {"is": "==", "and": "&&", "or": "||", "plus": "+", "minus": "-", "times": "*", "over": "/"}
 
 
 def rewrite(b: Builder, first: int, index: int) -> Fix | None:
@@ -69,7 +70,11 @@ def rewrite(b: Builder, first: int, index: int) -> Fix | None:
             return Fix("write `::`", (Edit(b.at(first + 1), "::"),))
         case "IDENT" if before == ["IDENT", ":"] and kinds[index : index + 2] == ["IDENT", "{"]:
             return Fix("write `::`", (Edit(b.at(first + 1), "::"),))
+    if b.texts[first] in _ELSE_IF and kinds[first + 1] == "(":
+        return Fix("write `else if`", (Edit(b.at(first), "else if"),))
     for at in (index, index - 1):
+        if at > first and b.texts[at] == "not" and kinds[at - 1] == "IDENT" and kinds[at + 1] == "IDENT":
+            return Fix("write `!=`", (Edit(b.at(at), "!="),))
         if at > first and kinds[at] == "IDENT" and (sign := _SIGNS.get(b.texts[at])) is not None:
             is_negated = b.texts[at : at + 2] == ["is", "not"]
             sign = "!=" if is_negated else sign

@@ -42,7 +42,7 @@ from nddl_lang.syntax.lexemes import (
     string_end,
 )
 from nddl_lang.syntax.piece import Piece
-from nddl_lang.syntax.separators import opens_block, separates
+from nddl_lang.syntax.separators import INSTEAD, meant_sign
 from nddl_lang.syntax.words import KINDS
 from nddl_lang.text.diagnostic import Edit, Fix
 from nddl_lang.text.source import Anchor, Source
@@ -242,10 +242,10 @@ class Scanner:
         if kind == "(" and len(self._brackets.open) > 1 and kinds[0] == "class" and piece.texts[-1] == piece.texts[1]:
             if self._indent(piece.starts[-1]) >= 0:
                 close_body(piece, self._brackets, self._base, len(kinds) - 1)
-        if kind == ";" and self._brackets.innermost == "(" and separates(piece, self._source.text, self._base, start):
-            return ","
-        if kind == ":":
-            return "{" if opens_block(piece, self._brackets, self._source.text, self._base, start) else kind
+        if kind == ":" or (kind in INSTEAD and self._brackets.innermost == INSTEAD[kind]):
+            kind, is_read = meant_sign(kind, piece, self._brackets, self._source.text, self._base, start)
+            if is_read:
+                return kind
         if kind == "::":
             if len(kinds) > 1 and kinds[-1] == "IDENT" and self._begins_statement(piece.starts[-1]):
                 for column in (kinds, piece.texts, piece.starts, piece.ends):
@@ -353,7 +353,7 @@ class Scanner:
                 piece.ends.append(start + 1)
                 word = word[1:].lstrip()
                 start = finish - len(word)
-            kind = read_number(piece, start - base, word, self._is_strict)
+            kind = read_number(piece, start - base, word, self._is_strict, is_bound=self._brackets.innermost == "[")
         elif group == _STRING or word == '"':
             kind = "STRING"
             is_path = piece.kinds[-1:] == ["#include"]

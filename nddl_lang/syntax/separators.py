@@ -1,6 +1,6 @@
-"""See, while a piece is cut from the text, a `;` that was meant as `,` and a `:` that was meant as `{`.
+"""See, while a piece is cut from the text, a `;` that was meant as `,`, a `:` meant as `{` and a `)` meant as `}`.
 
-Taken as they stand, the piece would end too early, or a block would never begin. All offsets are absolute.
+Taken as they stand, the piece would end too early, or a block would never begin or end. All offsets are absolute.
 """
 
 import re
@@ -15,11 +15,23 @@ _LOOPS = ("for", "while")
 _REST = re.compile(r'[^\n;(){}="]*(?:;[^\n;(){}="]*)*+(\))?')
 _REST_OF_LOOP = re.compile(r"[^\n{}]*(\))?")
 _REST_OF_LINE = re.compile(r"[ \t]*(?://[^\n]*)?(?:\n|\Z)\s*+([{\"])?")
+_BEHIND = re.compile(r"([ \t]*(?://[^\n]*)?(?:\n|\Z))?([ \t\n]*)(\})?")
+# A sign that may be meant as another one where this bracket is the innermost.
+INSTEAD = {";": "(", ")": "{", "]": "{"}
 _MOST_LEXEMES, _FARTHEST = 200, 1000  # of one call, so that a long line stays quick to read
 _HEADS = ("if", "foreach", "while", "for")
 
 
-def separates(piece: Piece, text: str, base: int, start: int) -> bool:
+def meant_sign(kind: str, piece: Piece, brackets: Brackets, text: str, base: int, start: int) -> tuple[str, bool]:
+    """The sign that was meant by the one at `start`, and whether that is all there is to it."""
+    if kind == ";":
+        return (",", True) if _separates(piece, text, base, start) else (kind, False)
+    if kind == ":":
+        return "{" if _opens_block(piece, brackets, text, base, start) else kind, True
+    return "}" if _closes_block(piece, kind, text, base, start) else kind, False
+
+
+def _separates(piece: Piece, text: str, base: int, start: int) -> bool:
     """Whether the `;` at `start`, in parentheses, stands between arguments, `f(a; b);`, or in the head of a loop."""
     head = _before_parenthesis(piece.kinds)
     if head is None or piece.kinds[head] not in ("IDENT", "foreach", "super"):
@@ -42,7 +54,7 @@ def separates(piece: Piece, text: str, base: int, start: int) -> bool:
     return True
 
 
-def opens_block(piece: Piece, brackets: Brackets, text: str, base: int, start: int) -> bool:
+def _opens_block(piece: Piece, brackets: Brackets, text: str, base: int, start: int) -> bool:
     """Whether the `:` at `start` ends the head of a block as in Python; then it counts as a `{`.
 
     Nothing may follow it in its line, and a `}` must end the lines after it.
@@ -68,6 +80,41 @@ def opens_block(piece: Piece, brackets: Brackets, text: str, base: int, start: i
         help_ = "a block stands in braces"
         piece.report(EXPECTED, at, at + 1, expected="`{`", found="`:`", help=help_, fixes=(fix,))
     return True
+
+
+def _closes_block(piece: Piece, kind: str, text: str, base: int, start: int) -> bool:
+    """Whether the `)` or `]` at `start`, with no partner in its block, stands for the `}` of that block.
+
+    It stands alone in its line, as deep as the line in which the block begins, and behind a whole statement; no `}`
+    follows there.
+    """
+    kinds = piece.kinds
+    before = text[text.rfind("\n", 0, start) + 1 : start]
+    if kinds[-1:] not in ([";"], ["}"], ["{"]) or before.strip():
+        return False
+    following = _BEHIND.match(text, start + 1)
+    assert following is not None
+    piece.reach = max(piece.reach, following.end() + len("//"))
+    opener = _open_brace(kinds)
+    line = text.rfind("\n", 0, piece.starts[opener]) + 1
+    head = text[line : piece.starts[opener]]
+    is_closed_again = following[3] is not None and following[2].rpartition("\n")[2] == before
+    if following[1] is None or line < base or is_closed_again or before != head[: len(head) - len(head.lstrip(" \t"))]:
+        return False
+    at = start - base
+    fix = Fix("write `}`", (Edit(piece.span(at, at + 1), "}"),))
+    piece.report(EXPECTED, at, at + 1, expected="`}`", found=f"`{kind}`", help="a block ends with `}`", fixes=(fix,))
+    return True
+
+
+def _open_brace(kinds: list[str]) -> int:
+    """The innermost `{` that is open at the end of `kinds`."""
+    depth = 0
+    for at in range(len(kinds) - 1, 0, -1):
+        depth += {"}": 1, "{": -1, "SET": -1}.get(kinds[at], 0)
+        if depth < 0:
+            return at
+    return 0
 
 
 def _before_parenthesis(kinds: list[str]) -> int | None:

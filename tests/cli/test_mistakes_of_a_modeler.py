@@ -114,7 +114,7 @@ MORE_MISTAKES = (
     Mistake("gps/vehicle.nddl", "predicate Active { int minHits; }", "predicate Active { int minHits }", "`;`"),
     Mistake("gps/vehicle.nddl", "    predicate Ascend { }", "    predicate Ascend;", "{ }"),
     Mistake("gps/vehicle.nddl", 'Gps(Mode m) { super(m, "Inactive"); }', 'Gps(Mode m) { super(m, "Inactive") }', "`;`"),
-    Mistake("gps/psim.nddl", "= [-0.3 0.3];", "= [-0.3..0.3];", "`[1 5]`"),
+    Mistake("gps/psim.nddl", "= [-0.3 0.3];", "= [-0.3..0.3];", "`[-0.3 0.3]`"),
     Mistake("gps/psim.nddl", "CRUISE = 1.5;", "CRUISE = 1,5;", "1.5"),
     Mistake("gps/psim.nddl", "ASCENT = 25;", "ASCENT == 25", "`;`"),
     Mistake("gps/psim.nddl", "/// What moves the vehicle.", "# What moves the vehicle.", "//"),

@@ -9,11 +9,15 @@ import pytest
 from nddlc.main import run
 from tests.cli.slip import Slip
 from tests.cli.slips_at_the_harbour import AT_THE_HARBOUR
+from tests.cli.slips_at_the_telescope import AT_THE_TELESCOPE
 from tests.cli.slips_in_the_survey import IN_THE_SURVEY
 
 HARBOUR = Path(__file__).parent / "harbour"
-PROJECTS = {"harbour": HARBOUR, "survey": HARBOUR.parents[2] / "models" / "templates" / "survey"}
-SLIPS = IN_THE_SURVEY + AT_THE_HARBOUR
+PROJECTS = {
+    **{name: HARBOUR.parent / name for name in ("harbour", "telescope", "depot")},
+    "survey": HARBOUR.parents[2] / "models" / "templates" / "survey",
+}
+SLIPS = IN_THE_SURVEY + AT_THE_HARBOUR + AT_THE_TELESCOPE
 Captured = pytest.CaptureFixture[str]
 
 
@@ -29,7 +33,8 @@ def test_a_slip_is_told_once_in_its_line_with_help(
     text = text.replace(slip.right, slip.wrong, 1)
     (tmp_path / file).write_text(text, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
-    assert run(["lint", "--format", "json", "mission.toml", "."]) == 1
+    missions = [path.name for path in tmp_path.glob("mission.toml")]
+    assert run(["lint", "--format", "json", *missions, "."]) == 1
     (one,) = json.loads(capsys.readouterr().out)["diagnostics"]
     assert Path(one["file"]).name == file
     assert any(each in text.split("\n")[one["line"] - 1] for each in slip.told)
@@ -37,8 +42,9 @@ def test_a_slip_is_told_once_in_its_line_with_help(
     assert any(each in told for each in slip.helps), told
 
 
-def test_the_harbour_is_in_order(capsys: Captured) -> None:
-    assert run(["lint", str(HARBOUR / "mission.toml"), str(HARBOUR)]) == 0
+@pytest.mark.parametrize("project", PROJECTS.values(), ids=PROJECTS)
+def test_a_project_without_a_slip_is_in_order(project: Path, capsys: Captured) -> None:
+    assert run(["lint", *map(str, project.glob("mission.toml")), str(project)]) == 0
     assert "nothing wrong" in capsys.readouterr().out
 
 

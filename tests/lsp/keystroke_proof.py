@@ -38,6 +38,8 @@ _WORDS = [
     "new ",
     "level <= ",
     "duration",
+    "\n)\n",
+    ":\n",
 ]
 
 

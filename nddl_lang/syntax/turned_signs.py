@@ -1,0 +1,55 @@
+"""Signs in, read as those that they were meant to be: `=>`, `=<`, `<>`, `===`, and a colon at the end of a line."""
+
+from nddl_lang.syntax.braces import begins_declaration
+from nddl_lang.syntax.builder import Builder
+from nddl_lang.syntax.codes import EXPECTED, SUPERFLUOUS
+from nddl_lang.syntax.expectation import accepts
+from nddl_lang.text.diagnostic import Edit, Fix
+
+_TURNED = {
+    ("-", ">"): ".",
+    (":", "="): "=",
+    ("=", ">"): ">=",
+    ("=", "<"): "<=",
+    ("<", ">"): "!=",
+    ("=", "!"): "!=",
+    ("==", "="): "==",
+    ("!=", "="): "!=",
+}
+_PARTED = {("<", "="): "<=", (">", "="): ">=", ("!", "="): "!=", ("=", "="): "=="}  # by blanks
+
+
+def turn_signs(b: Builder, first: int, index: int, *, is_quiet: bool) -> bool:
+    """Read the sign at `index`, and the one before it in the statement that begins at `first`, as one, if they are."""
+    kinds = b.kinds
+    if kinds[index : index + 2] == ["!", "="]:
+        index += 1
+    pair = kinds[index - 1], kinds[index]
+    if index <= first or (pair not in _TURNED and pair not in _PARTED):
+        return False
+    span = b.span(index - 1, index)
+    written = span.text
+    sign = _TURNED.get(pair) if b.ends[index - 1] == b.starts[index] else _PARTED.get(pair)
+    if pair == ("=", "=") and begins_declaration(kinds, first):
+        return False
+    if sign is None or "".join(written.split(" ")) != "".join(pair):
+        return False
+    if not is_quiet:
+        fix = Fix(f"write `{sign}`", (Edit(span, sign),))
+        b.report(SUPERFLUOUS, span, text=written, help=f"write `{sign}`", fixes=(fix,))
+    kinds[index] = b.texts[index] = sign
+    b.starts[index] = b.starts[index - 1]
+    b.remove(index - 1, index)
+    return True
+
+
+def end_at_colon(b: Builder, states: list[int], first: int, index: int, *, is_quiet: bool) -> bool:
+    """Read the colon before `index`, which begins another statement, as the `;` that it was meant to be."""
+    kinds = b.kinds
+    if index - 1 <= first or kinds[index - 1] != ":" or not accepts(states[:-1], [";", kinds[index]]):
+        return False
+    if not is_quiet:
+        fix = Fix("write `;`", (Edit(b.at(index - 1), ";"),))
+        b.report(EXPECTED, b.at(index - 1), expected="`;`", found="`:`", help="write `;`", fixes=(fix,))
+    kinds[index - 1] = b.texts[index - 1] = ";"
+    return True
