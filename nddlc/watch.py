@@ -1,17 +1,19 @@
-"""`--watch`: carry a command out again whenever a file changes that it may read, until Ctrl-C.
+"""`--watch`: carry a command out again whenever a file changes that it may read, until Ctrl-C or SIGTERM.
 
 Each time is a process of its own, so nothing of the last time lasts. Files are polled: no notification of the system is
 needed, so network drives and containers do as well.
 """
 
+import os
 import re
+import signal
 import subprocess
 import sys
 import time
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
-from signal import SIGINT
+from types import FrameType
 from typing import Any
 
 import click
@@ -24,7 +26,9 @@ _NAMED = re.compile(rb'"([^"\n]{1,300}\.(?:nddl|toml|xml|py|csv|json))["|:]')  #
 _OUTPUT = ("nddlc-report", "node_modules", "__pycache__")
 _PERIOD = 0.25  # seconds between two looks
 _ENDING = 5.0  # seconds that an interrupted run may take to end by itself
+_LEFT_BY_SHELLS = 128  # and the number of the signal: how a process ends that one has ended
 _GIVEN = "nddlc.watch.arguments"
+_ENDING_SIGNALS = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 Stamps = dict[Path, tuple[int, int]]
 
 
@@ -53,19 +57,44 @@ class WatchedCommand(click.Command):
         return _watch([*dialect, str(ctx.info_name), *ctx.meta[_GIVEN]], named or [Path()], ctx.params.get("output"))
 
 
+class _EndedError(BaseException):
+    """A signal that ends processes has come: not Ctrl-C, which a job in the background of a script never gets."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+def _end(number: int, frame: FrameType | None) -> None:
+    raise _EndedError(number)
+
+
 def _watch(arguments: list[str], named: list[Path], output: Path | None) -> int:
-    """Run, wait for a change, run again; Ctrl-C ends it in good order."""
+    """Run, wait for a change, run again; Ctrl-C or another signal ends it in good order."""
+    is_deaf = signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+    end = f"`kill {os.getpid()}`" if is_deaf else "Ctrl-C"
+    before_that = {number: signal.signal(number, _end) for number in _ENDING_SIGNALS if _is_default(number)}
     try:
         while True:
             before = stamps(named, output)
             _run(arguments)
             count = len(before)
-            click.echo(f"nddlc: watching {count} file{'' if count == 1 else 's'}; Ctrl-C ends it", err=True)
+            click.echo(f"nddlc: watching {count} file{'' if count == 1 else 's'}; {end} ends it", err=True)
             changed = _changed(before, named, output)
             click.echo(f"nddlc: changed: {', '.join(changed[:3])}{' and more' if len(changed) > 3 else ''}", err=True)
     except KeyboardInterrupt:
         click.echo("\nnddlc: no longer watching", err=True)
-    return 0
+        return 0
+    except _EndedError as ended:
+        click.echo(f"nddlc: no longer watching ({signal.Signals(ended.number).name})", err=True)
+        return _LEFT_BY_SHELLS + ended.number
+    finally:
+        for number, handler in before_that.items():
+            signal.signal(number, handler)
+
+
+def _is_default(number: int) -> bool:
+    return signal.getsignal(number) is signal.SIG_DFL
 
 
 def _run(arguments: list[str]) -> None:
@@ -77,7 +106,14 @@ def _run(arguments: list[str]) -> None:
             with suppress(subprocess.TimeoutExpired):
                 process.wait(_ENDING)
             if process.poll() is None:
-                process.send_signal(SIGINT)
+                process.send_signal(signal.SIGINT)
+            raise
+        except _EndedError:
+            process.terminate()
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(_ENDING)
+            if process.poll() is None:
+                process.kill()
             raise
 
 

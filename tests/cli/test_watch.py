@@ -44,6 +44,49 @@ def test_lint_runs_again_after_a_change_and_ends_cleanly(tmp_path: Path) -> None
     assert text.endswith("\nnddlc: no longer watching\n") and "Traceback" not in text
 
 
+@pytest.mark.skipif(os.name == "nt", reason="signals are another matter there")
+def test_a_watch_in_the_background_of_a_script_ends_by_sigterm_with_what_it_runs(tmp_path: Path) -> None:
+    """There Ctrl-C is ignored; the run under way stayed behind, with nobody who would end it."""
+    (tmp_path / "a.nddl").write_text("int x = 1;\n")
+    script = f"{sys.executable} -P -m nddlc.main lint --watch a.nddl & echo $!; wait $!; echo ended with $?"
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1"}
+    with subprocess.Popen(
+        ["sh", "-c", script], cwd=tmp_path, env=environment, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    ) as process:  # fmt: skip
+        assert process.stdout is not None
+        number = int(process.stdout.readline())
+        for line in process.stdout:
+            if "watching" in line:
+                assert f"`kill {number}` ends it" in line
+                break
+        os.kill(number, signal.SIGINT)
+        os.kill(number, signal.SIGTERM)
+        told = process.stdout.read()
+    assert "no longer watching (SIGTERM)" in told and told.endswith(f"ended with {128 + signal.SIGTERM}\n")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals are another matter there")
+def test_what_a_watch_runs_ends_with_it(tmp_path: Path) -> None:
+    run_once = "import sys, time; print('begun', flush=True); time.sleep(60)"
+    watching = (
+        "import sys, pathlib, nddlc.watch as watch\n"
+        "popen = watch.subprocess.Popen\n"
+        f"watch.subprocess.Popen = lambda _: popen([sys.executable, '-c', {run_once!r}])\n"
+        "sys.exit(watch._watch([], [pathlib.Path()], None))\n"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    with subprocess.Popen(
+        [sys.executable, "-P", "-c", watching], cwd=tmp_path, env=environment, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    ) as process:  # fmt: skip
+        assert process.stdout is not None and process.stdout.readline() == "begun\n"
+        process.send_signal(signal.SIGTERM)
+        # The pipe is closed once what was run is gone too.
+        assert "no longer watching (SIGTERM)" in process.communicate(timeout=30)[0]
+        assert process.returncode == 128 + signal.SIGTERM
+
+
 def test_a_check_without_a_path_watches_the_model_and_not_its_reports(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
