@@ -1,6 +1,7 @@
 """The reference of the command line and its man page, made from the commands; run it to write them anew."""
 
 from collections.abc import Iterator
+from html import escape
 from pathlib import Path
 
 import click
@@ -44,7 +45,7 @@ def _markdown() -> Iterator[str]:
         if options:
             yield "\n| option | |\n| --- | --- |\n"
         for words, meaning in options:
-            yield f"| `{_cell(words)}` | {_cell(meaning)} |\n"
+            yield f"| {_code(words)} | {_cell(meaning)} |\n"
         if isinstance(command, click.Group) and command is not nddlc:
             for name in command.list_commands(ctx):
                 inner = command.get_command(ctx, name)
@@ -85,6 +86,11 @@ def _options(ctx: click.Context, command: click.Command) -> Iterator[tuple[str, 
 
 def _cell(text: str) -> str:
     return text.replace("|", "\\|")
+
+
+def _code(text: str) -> str:
+    """A cell of code: within backquotes the renderer of the site would show the backslash before a bar."""
+    return f"`{text}`" if "|" not in text else f"<code>{escape(text).replace('|', '&#124;')}</code>"
 
 
 def _roff(text: str) -> str:

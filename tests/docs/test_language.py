@@ -13,7 +13,9 @@ from nddl_lang.text.diagnostic import Severity
 from runtime.plan.database import PlanDatabase
 
 GUIDE = Path(__file__).parents[2] / "docs" / "language.md"
-EXAMPLES = re.findall(r"^```nddl(?: refused (NDDL\d+))?\n(.*?)^```$", GUIDE.read_text(encoding="utf-8"), re.M | re.S)
+EXAMPLES = re.findall(
+    r"(?:^<!-- refused: (NDDL\d+) -->\n)?^```nddl\n(.*?)^```$", GUIDE.read_text(encoding="utf-8"), re.M | re.S
+)
 
 
 def errors_of(text: str) -> list[str]:
