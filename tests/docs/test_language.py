@@ -14,7 +14,7 @@ from runtime.plan.database import PlanDatabase
 
 GUIDE = Path(__file__).parents[2] / "docs" / "language.md"
 EXAMPLES = re.findall(
-    r"(?:^<!-- refused: (NDDL\d+) -->\n)?^```nddl\n(.*?)^```$", GUIDE.read_text(encoding="utf-8"), re.M | re.S
+    r"(?:^\*refused: (NDDL\d+)\*\n\n)?^```nddl\n(.*?)^```$", GUIDE.read_text(encoding="utf-8"), re.M | re.S
 )
 
 
