@@ -127,7 +127,7 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
     top.close()
     if head.values.get("final_tick") == agent.final_tick:
         text.diagnostics += goals_out_of_time(agent, text)
-    found = tuple(sorted(text.diagnostics, key=lambda diagnostic: diagnostic.span.begin))
+    found = text.found()
     if any(diagnostic.severity is Severity.ERROR for diagnostic in found):
         return None, found
     return Mission(text, agent, check, unranged, figures), found
@@ -234,7 +234,7 @@ def _read_reactors(
     names: dict[str, Span] = {}
     twins: set[str] = set()  # who uses one of these does not say whom
     for table in tables:
-        is_code = table.has("code")
+        is_code = table.has("code") or (table.means("code") and not table.means("model"))
         reactor: ReactorConfiguration | CodeConfiguration = _read_code(table) if is_code else _read_model(table, root)
         table.close()
         reactors.append(reactor)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from checker.codes import (
     MISSING_KEY,
+    NO_OWNER,
     OUT_OF_RANGE,
     REVERSED,
     UNKNOWN_CHOICE,
@@ -36,7 +37,13 @@ class MissionText:
         self.places = places
         self.elsewhere: dict[Path, Span] = {}  # what stands in another file, such as a batch file in XML
         self.diagnostics: list[Diagnostic] = []
+        self.may_declare = False  # a key that is unknown may have been meant to say who owns a timeline
         self._anchor = Anchor(source)
+
+    def found(self) -> tuple[Diagnostic, ...]:
+        """What is wrong, in order; of timelines without an owner nothing where an unknown key may have named it."""
+        kept = [each for each in self.diagnostics if each.code is not NO_OWNER or not self.may_declare]
+        return tuple(sorted(kept, key=lambda diagnostic: diagnostic.span.begin))
 
     def span(self, begin: int, end: int) -> Span:
         """The stretch between two offsets."""
@@ -105,21 +112,28 @@ class Table:
         self.caption = caption
         self.asked: list[str] = []
         self.is_told = is_told  # that it is missing as a whole
+        self._missing: dict[str, Diagnostic] = {}
 
     def close(self) -> None:
         """Complain about each key that was not asked for, naming the one that it resembles."""
-        for key in self.values:
-            if key not in self.asked:
-                span = self.text.key_span((*self.path, key))
-                close = _meant_word(key, self.asked)
-                fixes = (Fix(f"write `{close}`", (Edit(span, close),)),) if close else ()
-                advice = f"did you mean `{close}`?" if close else "known keys: " + ", ".join(self.asked)
-                if close is None and "parameters" in self.asked and not isinstance(self.values[key], dict):
-                    inner = ".".join(part for part in (*self.path, "parameters") if isinstance(part, str))
-                    advice += f"; parameters of the predicate stand below `[{inner}]`"
-                self.text.diagnostics.append(
-                    UNKNOWN_KEY.at(span, key=key, table=self.caption, help=advice, fixes=fixes)
-                )
+        unknown = [key for key in self.values if key not in self.asked]
+        if unknown and self.path[:1] in ((), ("reactor",)):
+            self.text.may_declare = True
+        is_plain = len(self._missing) == len(unknown) == 1 and _meant_word(unknown[0], self.asked) is None
+        lacks = next(iter(self._missing)) if is_plain else None
+        if lacks is not None:  # told together
+            self.text.diagnostics.remove(self._missing[lacks])
+        for key in unknown:
+            span = self.text.key_span((*self.path, key))
+            close = _meant_word(key, self.asked)
+            fixes = (Fix(f"write `{close}`", (Edit(span, close),)),) if close else ()
+            advice = f"did you mean `{close}`?" if close else "known keys: " + ", ".join(self.asked)
+            if close is None and "parameters" in self.asked and not isinstance(self.values[key], dict):
+                inner = ".".join(part for part in (*self.path, "parameters") if isinstance(part, str))
+                advice += f"; parameters of the predicate stand below `[{inner}]`"
+            if lacks is not None:
+                advice = f"is `{lacks}` meant, which is missing? {advice}"
+            self.text.diagnostics.append(UNKNOWN_KEY.at(span, key=key, table=self.caption, help=advice, fixes=fixes))
 
     def string(self, key: str, default: str | None = None) -> str:
         """A text; without a default the key is needed, and the text must not be empty."""
@@ -274,7 +288,8 @@ class Table:
         """Report that a key is not written, unless another one stands for it, of which `close` tells."""
         if key not in self.values and self._misspelt(key) is None:
             span = self.text.key_span(self.path)
-            self.text.diagnostics.append(MISSING_KEY.at(span, table=self.caption, key=key))
+            self._missing[key] = MISSING_KEY.at(span, table=self.caption, key=key)
+            self.text.diagnostics.append(self._missing[key])
 
     def complain_of_type(self, key: str, wanted: str) -> None:
         """Report a value of a type that cannot be."""
@@ -283,6 +298,10 @@ class Table:
     def has(self, key: str) -> bool:
         """Whether the key is written."""
         return key in self.values
+
+    def means(self, key: str) -> bool:
+        """Whether the key is written, or another one that may be meant to be it."""
+        return key in self.values or self._misspelt(key) is not None
 
     def complain_of_value(self, key: str, found: object, wanted: str, advice: str | None = None) -> None:
         """Report a value of the right type that cannot be."""

@@ -94,7 +94,8 @@ def _ill_distribution(table: Table, name: str, values: tuple[float, ...], expres
         if table.has(key) and key not in distribution.keys:
             owners = " or ".join(other for other, row in DISTRIBUTIONS.items() if key in row.keys)
             reasons.append(f"`{key}` belongs to a {owners} distribution, not to a {name} one")
-    if table.has("update") and table.values.get("mode", "inter") == "inter":
+    is_inter = table.values["mode"] == "inter" if table.has("mode") else not table.means("mode")
+    if table.has("update") and is_inter:
         reasons.append('`update` has no effect without `mode = "intra"`: there is one draw per mission')
     if name == "dependent":
         reasons += [f"`{key}` has no effect on a dependent parameter" for key in ("range", "mode") if table.has(key)]

@@ -36,7 +36,7 @@ from nddl_lang.syntax.reserved_names import read_as_name
 from nddl_lang.syntax.rewrites import close_block, link_tokens, rewrite
 from nddl_lang.syntax.skipping import end_of_statement, unclosed_block
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS
-from nddl_lang.syntax.turned_signs import end_at_colon, turn_signs
+from nddl_lang.syntax.turned_signs import end_at_colon, join_paths, turn_signs
 from nddl_lang.syntax.untyped import type_parameters
 from nddl_lang.syntax.words import KINDS, RESERVED
 from nddl_lang.text.diagnostic import Code, Edit, Fix, Note
@@ -179,9 +179,7 @@ class Recovery:
             kinds[index] = b.texts[index] = "="
             return True
         if kinds[index] == "::" and kinds[index - 1] == "IDENT" and accepts(states, [".", *following]):
-            fix = Fix("write `.`", (Edit(b.at(index), "."),))
-            self._report(EXPECTED, index, expected="`.`", found="`::`", help="write `.`", fixes=(fix,))
-            kinds[index] = b.texts[index] = "."
+            join_paths(b, index, is_quiet=self._is_quiet)
             return True
         if kinds[index] == "[" and "]" in kinds[index:] and accepts(states, ["{", *following]):
             closer = kinds.index("]", index)

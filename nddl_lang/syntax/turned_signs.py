@@ -4,6 +4,7 @@ from nddl_lang.syntax.braces import begins_declaration
 from nddl_lang.syntax.builder import Builder
 from nddl_lang.syntax.codes import EXPECTED, SUPERFLUOUS
 from nddl_lang.syntax.expectation import accepts
+from nddl_lang.syntax.tables import END
 from nddl_lang.text.diagnostic import Edit, Fix
 
 _TURNED = {
@@ -53,3 +54,15 @@ def end_at_colon(b: Builder, states: list[int], first: int, index: int, *, is_qu
         b.report(EXPECTED, b.at(index - 1), expected="`;`", found="`:`", help="write `;`", fixes=(fix,))
     kinds[index - 1] = b.texts[index - 1] = ";"
     return True
+
+
+def join_paths(b: Builder, index: int, *, is_quiet: bool) -> None:
+    """Read each `::` between two names, from the one at `index` to the end of the statement, as a `.`."""
+    kinds = b.kinds
+    last = next(at for at in range(index, len(kinds)) if kinds[at] in (";", "{", END))
+    signs = [at for at in range(index, last) if kinds[at] == "::" and kinds[at - 1] == kinds[at + 1] == "IDENT"]
+    if not is_quiet:
+        fix = Fix("write `.`", tuple(Edit(b.at(at), ".") for at in signs))
+        b.report(EXPECTED, b.at(index), expected="`.`", found="`::`", help="write `.`", fixes=(fix,))
+    for at in signs:
+        kinds[at] = b.texts[at] = "."

@@ -228,7 +228,7 @@ def test_missions_fail_by_the_level_that_they_leave(
         ("level = [75, inf]", 'reactor = "rver"\nmargin = 3', "there is no reactor `rver`"),
         ("level = [75, inf]", "", "[[property]] needs the key `level`"),
         ("level = [75, inf]", "level = [40, 30]", "`level` runs backwards"),
-        ('resource = "battery"', 'timeline = "rover"', "[[property]] needs the key `resource`"),
+        ('resource = "battery"', 'timeline = "rover"', "is `resource` meant, which is missing?"),
         ("level = [75, inf]", "level = [75, inf]\nby = 9000", "`by = 9000` has no effect here"),
         ("level = [75, inf]", "level = [75, inf]\nfrom = 9000", "`from` must be before the end of the mission"),
     ],
