@@ -13,16 +13,15 @@ from typing import cast
 from checker.agent_file import read_agent_file
 from checker.batch_xml import read_batch
 from checker.clock_table import read_clock
-from checker.codes import CYCLE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE, UNKNOWN_CHOICE
-from checker.declared_roles import declared_roles
+from checker.codes import NO_GOALS, NO_OWNER, NOT_TOML
 from checker.figures import Figures, read_figures
 from checker.goal_fit import goals_out_of_time
 from checker.limits import Limit
 from checker.mission_table import MissionText, Table, TomlTable, is_finite_number
-from checker.named_files import look_at, look_at_class
+from checker.named_files import look_at
 from checker.parameter_tables import read_parameters
-from checker.played_log import look_at_log
 from checker.property_tables import read_properties
+from checker.reactor_tables import read_reactors, suggest_owned
 from checker.respelt import respelt, rewritten
 from nddl_lang.mission_suffixes import AGENT_SUFFIXES
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
@@ -43,7 +42,6 @@ from runtime.executive.configuration import (
 )
 from runtime.executive.outcome import SourcePlace
 from runtime.user.limit import USUAL
-from runtime.user.log_player import LogPlayer
 
 LARGEST_SEED = (1 << 53) - 1  # what JSON readers agree on
 MOST_MISSIONS = 1_000_000  # of a batch: each has its place in memory
@@ -98,7 +96,7 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
     top = Table(text, (), values, "a mission file")
     head = top.table("mission", "[mission]", needed=True)
     tables = top.tables("reactor", needed=True)
-    reactors, coded = _read_reactors(tables, root)
+    reactors, coded = read_reactors(tables, root)
     owned = (*(line for one in reactors for line in one.internal), *(line for one in coded for line in one.internal))
     goals = _read_goals(top.tables("goal"), (*reactors, *coded), text)
     constraints, seconds = _read_constraints(top.table("constraints", "[constraints]"), root)
@@ -178,126 +176,6 @@ def _read_constraints(table: Table, root: Path) -> tuple[tuple[str, ...], float]
     return modules, seconds
 
 
-def _read_code(table: Table) -> CodeConfiguration:
-    """A reactor written in Python: `code = "file.py:Class"`, with its settings."""
-    file, _, class_name = table.string("code").rpartition(":")
-    settings = table.table("settings", "[reactor.settings]")
-    given = tuple((key, _setting(settings, key)) for key in settings.values)
-    return CodeConfiguration(
-        name=table.string("name"),
-        file=file,
-        class_name=class_name,
-        latency=table.whole("latency", 0, 0),
-        internal=table.strings("internal", "external"),
-        external=table.strings("external", "internal"),
-        settings=given,
-        lookahead=table.whole("lookahead", 0, 0),
-    )
-
-
-def _setting(table: Table, key: str) -> Value:
-    value = table.values[key]
-    if isinstance(value, bool | int | float | str):
-        return value
-    table.complain_of_type(key, "a number, a text in quotes, or true or false")
-    return 0
-
-
-def _read_model(table: Table, root: Path) -> ReactorConfiguration:
-    """A reactor with a model; where the file lists no timelines, they have the roles that the model declares."""
-    default = ReactorConfiguration("", "")
-    model = table.string("model")
-    is_told = any(table.has(key) for key in ("internal", "external", "observe"))
-    roles = {} if is_told or not model else declared_roles(root / model)
-    internal, external = table.strings("internal", "external"), table.strings("external", "internal")
-    return ReactorConfiguration(
-        name=table.string("name"),
-        model=model,
-        latency=table.whole("latency", default.latency, 0),
-        lookahead=table.whole("lookahead", default.lookahead, 0),
-        internal=roles.get("internal") or internal,
-        external=roles.get("external") or external,
-        solver=table.string("solver", "") or None,
-        early=table.strings("early"),
-        late=table.strings("late"),
-        observe=roles.get("observe") or table.strings("observe"),
-        max_steps=table.whole("max_steps", 0, 0) or None,
-        max_depth=table.whole("max_depth", 0, 0) or None,
-    )
-
-
-def _read_reactors(
-    tables: list[Table], root: Path
-) -> tuple[tuple[ReactorConfiguration, ...], tuple[CodeConfiguration, ...]]:
-    reactors: list[ReactorConfiguration | CodeConfiguration] = []
-    owners: dict[str, tuple[str, Span]] = {}
-    names: dict[str, Span] = {}
-    twins: set[str] = set()  # who uses one of these does not say whom
-    for table in tables:
-        is_code = table.has("code") or (table.means("code") and not table.means("model"))
-        reactor: ReactorConfiguration | CodeConfiguration = _read_code(table) if is_code else _read_model(table, root)
-        table.close()
-        reactors.append(reactor)
-        files = (
-            (("code", reactor.file),)
-            if isinstance(reactor, CodeConfiguration)
-            else (("model", reactor.model), ("solver", reactor.solver))
-        )
-        for key, file in files:
-            is_there = not file or look_at(table.text, (*table.path, key), root, file)
-            if isinstance(reactor, CodeConfiguration) and reactor.class_name and is_there:
-                look_at_class(table.text, (*table.path, key), root, reactor.file, reactor.class_name)
-        if isinstance(reactor, CodeConfiguration) and not reactor.file and reactor.class_name == LogPlayer.__name__:
-            look_at_log(table.text, table.path, root, dict(reactor.settings))
-        span = table.text.value_span((*table.path, "name"))
-        if reactor.name in names:
-            _complain_of_twin(table, span, "the reactor", reactor.name, names[reactor.name])
-        names.setdefault(reactor.name, span)
-        if isinstance(reactor, ReactorConfiguration):
-            _look_at_names(table, reactor)
-        for index, timeline in enumerate(reactor.internal):
-            span = table.text.value_span((*table.path, "internal", index))
-            if timeline in owners:
-                _complain_of_twin(table, span, "an owner of the timeline", timeline, owners[timeline][1])
-                twins.add(timeline)
-            owners.setdefault(timeline, (reactor.name, span))
-    are_told = _are_owners_told(tables)
-    for table, reactor in zip(tables, reactors, strict=True):
-        for index, timeline in enumerate(reactor.external):
-            if timeline not in owners and are_told:
-                span = table.text.value_span((*table.path, "external", index))
-                complaint = NO_OWNER.at(span, timeline=timeline, help=_suggest(timeline, [*owners]))
-                table.text.diagnostics.append(respelt(complaint, timeline, owners))
-            elif timeline in reactor.internal and timeline not in twins:
-                span = table.text.value_span((*table.path, "external", index))
-                help_ = f"`{reactor.name}` owns it: remove it from `internal` or from `external`"
-                table.text.diagnostics.append(TWICE.at(span, what="the timeline", name=timeline, help=help_))
-                twins.add(timeline)
-    cycle = _find_cycle(reactors, {timeline: name for timeline, (name, _) in owners.items() if timeline not in twins})
-    if cycle:
-        span = tables[0].text.key_span(tables[0].path)
-        tables[0].text.diagnostics.append(CYCLE.at(span, cycle=" → ".join(cycle)))
-    return (
-        tuple(one for one in reactors if isinstance(one, ReactorConfiguration)),
-        tuple(one for one in reactors if isinstance(one, CodeConfiguration)),
-    )
-
-
-def _look_at_names(table: Table, reactor: ReactorConfiguration) -> None:
-    """Complain of timelines that a reactor treats in some way and does not own, or does not use."""
-    for key, known in (("early", reactor.internal), ("late", reactor.internal), ("observe", reactor.external)):
-        for index, timeline in enumerate(getattr(reactor, key)):
-            if timeline not in known:
-                span = table.text.value_span((*table.path, key, index))
-                choices = ", ".join(known) or "nothing"
-                table.text.diagnostics.append(UNKNOWN_CHOICE.at(span, key=key, found=timeline, choices=choices))
-
-
-def _are_owners_told(tables: list[Table]) -> bool:
-    """Whether every reactor's `internal` can be read, so that a timeline which stands in none has no owner."""
-    return all(isinstance(table.values.get("internal", []), list) for table in tables)
-
-
 def _entry_places(*tables: Table) -> tuple[tuple[str, SourcePlace], ...]:
     """Where the mission file gives the bounds and the parameters of a goal, by key."""
     found = []
@@ -357,7 +235,7 @@ def _without_owner(
                     complaint = NO_OWNER.at(span, timeline=timeline, help=f"did you mean `{timeline}`?", notes=notes)
                     return rewritten(complaint, close, timeline)
     notes = tuple(Note("and so is this goal", each) for each in spans[1:])
-    complaint = NO_OWNER.at(spans[0], timeline=timeline, help=_suggest(timeline, owned), notes=notes)
+    complaint = NO_OWNER.at(spans[0], timeline=timeline, help=suggest_owned(timeline, owned), notes=notes)
     return respelt(complaint, timeline, owned)
 
 
@@ -372,32 +250,3 @@ def _goal_value(table: Table, key: str) -> Value | Bounds:
         return value
     table.complain_of_type(key, "a number, a text in quotes, true or false, or a pair [lower, upper] of numbers")
     return 0
-
-
-def _find_cycle(reactors: list[ReactorConfiguration | CodeConfiguration], owners: dict[str, str]) -> list[str]:
-    """The names of reactors on a cycle of use, the first repeated at the end; empty where there is none."""
-    uses = {one.name: [owners[name] for name in one.external if name in owners] for one in reactors}
-    waiting = {name: set(used) for name, used in uses.items()}
-    while free := [name for name, used in waiting.items() if not used]:
-        waiting = {name: used for name, used in waiting.items() if name not in free}
-        for used in waiting.values():
-            used.difference_update(free)
-    trail = [next(iter(waiting))] if waiting else []
-    while trail:
-        following = next(name for name in uses[trail[-1]] if name in waiting)
-        if following in trail:
-            return [*trail[trail.index(following) :], following]
-        trail.append(following)
-    return []
-
-
-def _complain_of_twin(table: Table, span: Span, what: str, name: str, first: Span) -> None:
-    note = Note("first here", first)
-    table.text.diagnostics.append(TWICE.at(span, what=what, name=name, notes=(note,)))
-
-
-def _suggest(name: str, known: list[str]) -> str | None:
-    close = nearest(name, known)
-    if close:
-        return f"did you mean `{close}`?"
-    return "owned timelines: " + ", ".join(known) if known else None
