@@ -26,9 +26,9 @@ def named_objects(program: Program) -> dict[str, str]:
 
 
 def resources_of(program: Program) -> list[str]:
-    """The names of the resources that are global variables of a model."""
+    """The names of the resources among the objects of a model."""
     kinds = {code.name for code in program.classes if code.native in RESOURCES}
-    return [name for name, code in program.globals if code.kind == "object" and code.type_name in kinds]
+    return [name for name, class_name in named_objects(program).items() if class_name in kinds]
 
 
 def _parts(name: str, constructor: int, classes: Mapping[str, ClassCode]) -> Iterator[NewObject]:

@@ -5,6 +5,7 @@ from checker.counterfactual.rendering import cause_text
 from checker.excerpts import Excerpts
 from checker.findings import Findings
 from checker.rendering import failure_text
+from checker.report.cases import failing_cases
 from checker.report.losses import damage_words, goal_text, repair_text
 from checker.report.sentences import case_lines, decision, explained_by, fault_title, headline, repaired_line
 from nddl_lang.text.github import command_line
@@ -14,7 +15,7 @@ _MOST_MARKS = 10  # of each command GitHub shows no more
 
 
 def github_report(findings: Findings, excerpts: Excerpts) -> str:
-    """An error for each fault, a warning for each goal given up and each line repaired, and a notice for the whole."""
+    """Errors for faults and regression cases, warnings for goals given up, notices for repairs and for the whole."""
     rate = findings.rate
     lines = []
     for index, fault in enumerate(findings.faults[:_MOST_MARKS]):
@@ -30,6 +31,10 @@ def github_report(findings: Findings, excerpts: Excerpts) -> str:
         where = SourcePlace(findings.mission.source.name, 1, 1, "")
         title = f"mission {error.number} (seed {error.seed}) could not be flown"
         lines.append(command_line("error", _place(where, title, excerpts), failure_text(error.judgement)))
+    for failing in failing_cases(findings)[:_MOST_MARKS]:
+        where = next(iter(failing.places), SourcePlace(findings.mission.source.name, 1, 1, ""))
+        command = "error" if failing.must_pass else "warning"
+        lines.append(command_line(command, _place(where, failing.title, excerpts), failing.text))
     for goal in [one for one in findings.tally.goals if one.given_up][:_MOST_MARKS]:
         lines.append(command_line("warning", _place(goal.place, "goal given up", excerpts), goal_text(goal, excerpts)))
     for repair in [one for one in findings.tally.repairs if one.place is not None][:_MOST_MARKS]:

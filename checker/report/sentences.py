@@ -126,11 +126,11 @@ def case_lines(findings: Findings) -> list[str]:
     for one in failing[:_MOST_CASES]:
         why = failure_text(one.result.judgement, one.result.open_goals)
         was = f" ({one.case.was})" if one.case.was not in ("", one.result.judgement.code) else ""
-        lines.append(f"{_case_name(one)}{was}: {' '.join(filter(None, (one.result.judgement.code, why)))}")
+        lines.append(f"{case_name(one)}{was}: {' '.join(filter(None, (one.result.judgement.code, why)))}")
     return [*lines, *([f"{len(failing) - _MOST_CASES} more"] if len(failing) > _MOST_CASES else [])]
 
 
-def _case_name(one: FlownCase) -> str:
+def case_name(one: FlownCase) -> str:
     """A promoted case by its name; `k3` for the third of the failures that the store has kept."""
     if one.case.is_promoted:
         return f"case `{one.case.name}`"

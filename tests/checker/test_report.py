@@ -166,7 +166,9 @@ def test_every_form_is_well_formed_whatever_came_of_a_batch(campaign: Campaign, 
 def test_sarif_points_at_the_line(findings: Findings) -> None:
     log = json.loads(sarif_report(findings, Excerpts(ROOT)))
     check_sarif(log)
-    (result,) = log["runs"][0]["results"]
+    result, error = log["runs"][0]["results"]
+    assert error["message"]["text"].startswith("1 mission could not be flown: KeyError")
+    assert error["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "models/gps/mission.toml"
     place = result["locations"][0]["physicalLocation"]
     assert place == {
         "artifactLocation": {"uri": "models/gps/rules.nddl"},

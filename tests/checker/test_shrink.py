@@ -5,6 +5,7 @@ import tomllib
 from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
@@ -28,6 +29,7 @@ from runtime.executive.configuration import (
 )
 from runtime.executive.outcome import Abort, Draw, Outcome, Reason, ReasonKind
 from tests.checker.conditions.campaigns import campaign, flown
+from tests.sarif import check_sarif
 
 pytestmark = pytest.mark.once
 
@@ -178,9 +180,18 @@ def test_a_promoted_mission_is_flown_first_until_it_passes(
     assert "FAILS: 1 regression case still fails" in told
     (again,) = [one for one in json.loads(Path("nddlc-report/report.json").read_text())["cases"] if one["name"]]
     assert (again["name"], again["passes"], again["verdict"]) == ('wet "pump"', False, "FAIL")
+    case_of_ci = ElementTree.parse("nddlc-report/junit.xml").find("testsuite/testcase[failure]")
+    assert case_of_ci is not None
+    assert 'case `wet "pump"`' in case_of_ci.attrib["name"]
+    log = json.loads(Path("nddlc-report/report.sarif").read_text())
+    check_sarif(log)
+    levels = {one["message"]["text"]: one["level"] for one in log["runs"][0]["results"]}
+    assert [level for text, level in levels.items() if 'case `wet "pump"`' in text] == ["error"]
     # What is in the store already does not keep it from being flown.
-    assert run(["check", "mission.toml", "--flights", "2", "--missions", "2", "--max-failure-rate", "1"]) == 1
-    assert 'case `wet "pump"`' in capsys.readouterr().out
+    again = ["check", "mission.toml", "--flights", "2", "--missions", "2", "--max-failure-rate", "1"]
+    assert run([*again, "--format", "github"]) == 1
+    marks = [line for line in capsys.readouterr().out.splitlines() if 'case `wet "pump"`' in line]
+    assert marks[0].startswith("::error file=pump.nddl,line=14")
     model = Path("pump.nddl")
     model.write_text(model.read_text().replace("r >= 2.0", "r >= -2.0"))
     assert run(["check", "mission.toml", "--flights", "2", "--missions", "2"]) == 0
