@@ -208,6 +208,7 @@ agents: build
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich --deep
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich --deep --ranks --batches 50
+	$(BIN)/python -m tests.executive.generated.redrawn $(AGENTS)
 
 second: build
 	$(BIN)/python -m tests.executive.second.campaign $(AGENTS)

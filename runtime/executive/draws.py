@@ -171,7 +171,8 @@ class Draws:
             return inf
         times = [inf]
         for each in self.open:
-            if view.is_alive(each.token, each.key) and not view.is_started(each.token, tick):
+            is_there = view.is_alive(each.token, each.key) and view.is_active(each.token)
+            if is_there and not view.is_started(each.token, tick):
                 parameter = self.world.parameters[each.parameter]
                 begin = max(int(view.lower(view.start(each.token))), tick + 1)
                 is_moved = update_index(parameter, begin) != each.index

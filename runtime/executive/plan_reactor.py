@@ -137,7 +137,7 @@ class PlanReactor(TeleoReactor):
                     soonest = min(soonest, bench.lower(bench.start(token)))
             else:
                 soonest = min(soonest, self.dispatch.next_due(line, tick))
-        soonest = min(soonest, bench.last_start())
+        soonest = min(soonest, bench.last_start(), self.planner.window.next_freed(tick, self.reach))
         # Where steps are counted it counts when each variable of a token is decided, too.
         is_metered = self.is_metered or self.max_steps is not None
         soonest = min(soonest, bench.next_within(tick, self.reach, is_metered))

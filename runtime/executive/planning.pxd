@@ -8,8 +8,8 @@ from runtime.plan.store.rows cimport Rows
 from runtime.solver.flaws.filters cimport PlanningScope
 from runtime.solver.search cimport Solver
 
-cdef double _EXPLAINING
-cdef long long EXHAUSTED, FLAG_REJECTABLE, INACTIVE, LISTS, LIST_ORDER, LIST_THREAT, NONE, _DEEPEST, _MOST_CHANGES, _MOST_EXPLAINED
+cdef double INFINITY, _EXPLAINING
+cdef long long EXHAUSTED, FLAG_REJECTABLE, HEAD_OPEN, INACTIVE, LISTS, LIST_OPEN, LIST_ORDER, LIST_THREAT, NONE, _DEEPEST, _MOST_CHANGES, _MOST_EXPLAINED
 cdef long long _MOST_STEPS, _NEVER, _NO_LIMIT, PLAN, ROLE_LOCAL, ROLE_TOKEN, SPAN_CLOCK
 
 
@@ -24,8 +24,13 @@ cdef class _Window(PlanningScope):
     @cython.locals(bench=Workbench, earliest=double, start="long long")
     cpdef bint admits_token(self, long long t) except -1
 
-    @cython.locals(before="long long", bench=Workbench, first="long long")
     cpdef bint _waits_behind(self, long long t) except -1
+
+    @cython.locals(before="long long", bench=Workbench, first="long long")
+    cpdef double _is_free_at(self, long long t) except? -1
+
+    @cython.locals(found=double, free=double, rows=Rows, t="long long")
+    cpdef double next_freed(self, long long tick, long long reach) except? -1
 
     cpdef bint _waits_for_others(self, long long t) except -1
 

@@ -9,7 +9,19 @@ from runtime.executive.story import SearchLog, conflict_of
 from runtime.executive.view import SPAN_CLOCK
 from runtime.executive.workbench import Workbench
 from runtime.limits import TIME_LIMIT, LimitError
-from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, LIST_ORDER, LIST_THREAT, LISTS, NONE, ROLE_LOCAL, ROLE_TOKEN
+from runtime.plan.tags import (
+    FLAG_REJECTABLE,
+    HEAD_OPEN,
+    INACTIVE,
+    INFINITY,
+    LIST_OPEN,
+    LIST_ORDER,
+    LIST_THREAT,
+    LISTS,
+    NONE,
+    ROLE_LOCAL,
+    ROLE_TOKEN,
+)
 from runtime.solver.configuration.configuration import Configuration, FlawFilter, Match, default_configuration
 from runtime.solver.flaws.filters import PlanningScope
 from runtime.solver.search import Solver
@@ -76,17 +88,34 @@ class _Window(PlanningScope):
 
         What is needed with it is found when it begins: of what holds by then, nobody knows now.
         """
+        return self._is_free_at(t) > self.end
+
+    def _is_free_at(self, t: int) -> float:
+        """The earliest end of what goes on where a command begins for which `t` is needed, inf without a place yet."""
         bench = self.bench
         first, before = bench.root(t), NONE
         if first == t or not bench.is_internal(first) or not bench.is_active(first):
-            return False
+            return -INFINITY
         if bench.rows.link_head[LISTS * first + LIST_ORDER] >= 0:
             before = bench.rows.link_before[LISTS * first + LIST_ORDER]
         elif bench.rows.link_head[LISTS * first + LIST_THREAT] >= 0:
-            return True
+            return INFINITY
         while before >= 0 and bench.root(before) == first:
             before = bench.rows.link_before[LISTS * before + LIST_ORDER]
-        return before >= 0 and bench.lower(bench.end(before)) > self.end
+        return bench.lower(bench.end(before)) if before >= 0 else -INFINITY
+
+    def next_freed(self, tick: int, reach: int) -> float:
+        """The first tick whose window, `reach` ticks long, has in it an end that something undecided waits behind."""
+        found = INFINITY
+        rows = self.bench.rows
+        t = rows.head_first[HEAD_OPEN] if self.is_reactive else NONE
+        while t >= 0:
+            if self.bench.is_internal(t) and self.bench.is_due_to_request(t):
+                free = self._is_free_at(t)
+                if tick + reach < free < found:
+                    found = free
+            t = rows.link_after[LISTS * t + LIST_OPEN]
+        return found - reach
 
     def _waits_for_others(self, t: int) -> bool:
         """Whether `t` is a goal, or on a timeline that others let begin what it holds."""

@@ -2,8 +2,11 @@
 
 from dataclasses import replace
 
+import pytest
+
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
 from tests.executive.flying import flown, history, in_all_ways, lines, simulator
+from tests.executive.generated.redrawn import fly_redrawn
 
 LOAD = ParameterConfiguration("LOAD", 0.0, 1.0, mode="intra", update=3)
 
@@ -148,3 +151,10 @@ def test_what_a_command_needs_is_found_when_it_begins_by_what_holds_then() -> No
             assert begin == due or not clear  # at once, where the sky lets it
         begun += len(exposed)
     assert begun > 24
+
+
+# Flights that differed or ended in an error: a token that had made way for another was taken for one to be drawn for
+# anew; what a command needs was sought a tick before an end that nobody woke up for.
+@pytest.mark.parametrize("seed", [*range(6), 1022, 1043, 1140])
+def test_a_random_simulator_that_is_drawn_for_anew_flies_alike_in_all_ways(seed: int) -> None:
+    fly_redrawn(seed)
