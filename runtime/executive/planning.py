@@ -106,7 +106,7 @@ class _Window(PlanningScope):
 
     def next_freed(self, tick: int, reach: int) -> float:
         """The first tick whose window, `reach` ticks long, has in it an end that something undecided waits behind."""
-        found = INFINITY
+        found: float = INFINITY
         rows = self.bench.rows
         t = rows.head_first[HEAD_OPEN] if self.is_reactive else NONE
         while t >= 0:

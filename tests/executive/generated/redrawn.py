@@ -93,8 +93,9 @@ def fly_redrawn(seed: int) -> Outcome:
         ]
     )
     goals = _goals(chance, commands)
-    mode = chance.choice(["intra", "intra", "intra", "inter"])
-    load = ParameterConfiguration("LOAD", 0.0, 1.0, mode=mode, update=chance.choice([1, 2, 3, 5, 10, 20]))
+    is_redrawn = chance.choice([True, True, True, False])
+    update = chance.choice([1, 2, 3, 5, 10, 20])
+    load = ParameterConfiguration("LOAD", 0.0, 1.0, mode="intra" if is_redrawn else "inter", update=update)
     order = chance.choice(["arm bath sky", "sky bath arm", "bath arm sky", "sky arm bath"])
     return in_all_ways(simulator("world", text, order), _UNTIL, goals, (load,), seed)
 
