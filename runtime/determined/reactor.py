@@ -140,6 +140,8 @@ class DeterminedReactor(TeleoReactor):
         """All tokens that were executed, with their children and runs of rules."""
         if self.general is not None:
             return self.general.bench.recorder.close()
+        if self.reached == NONE:  # another reactor has ended the mission before the first tick of this one
+            return self.program.frame._replace(reactor=self.name)
         self._return_to(self.tick)
         return record_of(self.program.frame, self.name, expand(self.program, self.machine, self.tick), self.tick)
 
