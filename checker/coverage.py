@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from checker.batch.result import MissionResult
+from checker.clock_guards import ClockGuards, clock_of
 from checker.influence import Branch, branch_of
 from checker.models import ModelSet
 from checker.names import relative_name
@@ -46,11 +47,12 @@ class _Fork:
 
 @dataclass(frozen=True, slots=True)
 class Site:
-    """A rule (`branch` empty), or a branch of a guard: `then` or `else`."""
+    """A rule (`branch` empty), or the `then` or `else` of a guard; AGENT_CLOCK decides for none that `is_open`."""
 
     rule: str
     branch: str
     span: Span
+    is_open: bool = False
 
 
 class _Sites:
@@ -59,23 +61,37 @@ class _Sites:
     def __init__(self, program: Program, first: int) -> None:
         self.first = first
         self.sites: list[Site] = []
+        self._clock = clock_of(program)
         self.rules = [self._rule(rule) for rule in program.rules]
 
     def _rule(self, rule: RuleCode) -> _Branch:
         site = self._add(Site(rule.predicate, "", rule.span))
-        return _Branch(site, tuple(self._forks(rule.predicate, rule.body)))
+        return _Branch(site, tuple(self._forks(rule.predicate, rule.body, ClockGuards(self._clock))))
 
-    def _forks(self, rule: str, body: Sequence[Instruction], *, is_looped: bool = False) -> Iterator[_Fork]:
+    def _forks(
+        self,
+        rule: str,
+        body: Sequence[Instruction],
+        guards: ClockGuards,
+        *,
+        is_looped: bool = False,
+        is_open: bool = False,
+    ) -> Iterator[_Fork]:
         for each in body:
+            guards.read(each)
             if isinstance(each, ObjectLoop):
-                yield from self._forks(rule, each.body, is_looped=True)
+                yield from self._forks(rule, each.body, guards, is_looped=True, is_open=is_open)
             elif isinstance(each, Guard):
-                then = self._branch(rule, "then", each.then, each.span)
-                yield _Fork(then, self._branch(rule, "else", each.otherwise, each.span), is_looped)
+                values = guards.of(each.condition)
+                then, otherwise = (
+                    self._branch(Site(rule, name, each.span, is_open or value not in values), part, guards)
+                    for name, value, part in (("then", True, each.then), ("else", False, each.otherwise))
+                )
+                yield _Fork(then, otherwise, is_looped)
 
-    def _branch(self, rule: str, name: str, body: Sequence[Instruction], span: Span) -> _Branch:
-        site = self._add(Site(rule, name, span))
-        return _Branch(site, tuple(self._forks(rule, body)))
+    def _branch(self, site: Site, body: Sequence[Instruction], guards: ClockGuards) -> _Branch:
+        number = self._add(site)
+        return _Branch(number, tuple(self._forks(site.rule, body, guards, is_open=site.is_open)))
 
     def _add(self, site: Site) -> int:
         self.sites.append(site)
@@ -236,6 +252,8 @@ def coverage_of(models: ModelSet, results: Sequence[MissionResult]) -> Coverage:
     for number, site in enumerate(Universe(programs).sites):
         count = counts.get(number, 0)
         fired = fired if site.branch else count
+        if site.is_open and not count:
+            continue
         source = site.span.source
         line, column = source.locate(site.span.begin)
         text = site.span.text.split("\n")[0]
