@@ -4,8 +4,10 @@ import math
 
 import pytest
 
+from checker.betting import betting_interval
 from checker.rate import judge_rate
-from checker.statistics import exact_interval, incomplete_beta
+from checker.sampling.adaptive import Adaptive
+from checker.statistics import confidence_sequence, exact_interval, incomplete_beta
 
 
 @pytest.mark.parametrize(
@@ -37,6 +39,24 @@ def test_the_incomplete_beta_has_its_ends_and_its_symmetry() -> None:
     assert incomplete_beta(3, 4, 1.0) == 1.0
     assert incomplete_beta(2.5, 1.5, 0.3) == pytest.approx(1 - incomplete_beta(1.5, 2.5, 0.7), abs=1e-14)
     assert incomplete_beta(0.5, 0.5, 0.25) == pytest.approx(1 / 3, abs=1e-13)
+
+
+def test_the_intervals_are_those_that_the_page_describes() -> None:
+    """docs/mission.md: the bounds are where what it compares is equal."""
+
+    def beta(a: float, b: float) -> float:
+        return math.exp(math.lgamma(a) + math.lgamma(b) - math.lgamma(a + b))
+
+    mean = sum(beta(a + 10, b + 32) / beta(a, b) for a, b in ((0.5, 0.5), (0.5, 50.0))) / 2
+    for rate in confidence_sequence(10, 42, 0.95):
+        assert rate**10 * (1 - rate) ** 32 == pytest.approx(0.05 * mean, rel=1e-5)
+    stakes = (0.999, 0.98, 0.9, 0.75, *(0.5**power for power in range(1, 12)))
+    counted, most = [0.4, 0.0, 0.0, 0.0, 0.0, 1.2] * 20, Adaptive.most_weight
+    assert most == 1 / 0.35
+    lower, upper = betting_interval(counted, most, 0.95)
+    below = sum(math.prod(1 + c * (one / lower - 1) for one in counted) for c in stakes) / len(stakes)
+    above = sum(math.prod(1 + c * (upper - one) / (most - upper) for one in counted) for c in stakes) / len(stakes)
+    assert (below, above) == pytest.approx((40.0, 40.0), rel=1e-4)
 
 
 def test_no_missions_say_nothing() -> None:
