@@ -93,7 +93,8 @@ endif
 	  $$python -c 'import ensurepip, sys, venv; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && break; python=; done; \
 	[ "$$python" ] || { echo 'Python 3.11 or newer, with its venv, is not on the path; try PYTHON=...' >&2; exit 1; }; \
 	$(BIN)/python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
-	{ echo "making .venv with $$($$python --version)" && $$python -m venv --clear .venv; }
+	{ echo "making .venv with $$($$python --version)" && \
+	$$python build_backend/ticking.py 'making .venv' $$python -m venv --clear .venv; }
 	@$(TICKING) 'installing what compiles' $(PIP) 'setuptools>=77' && \
 	$(TICKING) 'installing what compiles' $(PIP) $$($(BIN)/python build_backend/nddlc_build.py)
 	@touch $@

@@ -62,6 +62,17 @@ def test_an_environment_that_came_with_a_copy_is_removed(tree: Path) -> None:
     assert not (tree / ".venv").exists()
 
 
+def test_making_an_environment_says_that_it_goes_on(tree: Path) -> None:
+    """On a busy machine it was silent for a minute."""
+    python = tree / "fake"
+    python.write_text(f'#!/bin/sh\necho "$@" >> {tree}/calls\n', encoding="ascii")
+    python.chmod(0o755)
+    (tree / ".venv" / "ready").write_text("/somewhere/else\n", encoding="ascii")
+    make(tree, "setup", f"PYTHON={python}")
+    last = (tree / "calls").read_text().splitlines()[-1]
+    assert last == f"build_backend/ticking.py making .venv {python} -m venv --clear .venv"
+
+
 def test_make_alone_says_what_it_can_do(tree: Path) -> None:
     assert make(tree).stdout.startswith("make check ")
 
