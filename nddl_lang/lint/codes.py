@@ -2,10 +2,10 @@
 
 from nddl_lang.text.diagnostic import Code, Severity
 
-UNUSED_LOCAL = Code("NDDL501", Severity.WARNING, "lint", "the local variable `{name}` is never used")
+UNUSED_LOCAL = Code("NDDL501", Severity.WARNING, "lint", "the local variable `{name}` is never {done}")
 UNUSED_LABEL = Code("NDDL502", Severity.HINT, "lint", "the token `{name}` is never referred to")
 UNUSED_FORMAL = Code("NDDL503", Severity.WARNING, "lint", "the constructor does not use its parameter `{name}`")
-UNUSED_GLOBAL = Code("NDDL504", Severity.WARNING, "lint", "the global variable `{name}` is never used")
+UNUSED_GLOBAL = Code("NDDL504", Severity.WARNING, "lint", "the global variable `{name}` is never {done}")
 UNUSED_MEMBER = Code("NDDL505", Severity.INFO, "lint", "the member `{name}` of class `{owner}` is never {done}")
 UNUSED_VALUE = Code("NDDL506", Severity.HINT, "lint", "the value `{name}` of enum `{enum}` is never used")
 UNUSED_TYPE = Code("NDDL507", Severity.INFO, "lint", "the {what} `{name}` is never used")

@@ -66,7 +66,9 @@ def _globals(whole: Whole, part: Part, used: AbstractSet[object]) -> Iterator[Di
             continue
         # What somebody wrote down is often read by a line that is missing.
         fix = undeclare(node, index, safe=declarator.initialiser is None)
-        yield UNUSED_GLOBAL.at(declarator.name.span, fixes=(fix,), name=variable.name)
+        is_given = variable in whole.usage.written
+        done, fixes = ("read", ()) if is_given else ("used", (fix,))
+        yield UNUSED_GLOBAL.at(declarator.name.span, fixes=fixes, name=variable.name, done=done)
 
 
 def _members(whole: Whole, part: Part, node: ClassDecl) -> Iterator[Diagnostic]:

@@ -10,7 +10,15 @@ from nddl_lang.lint.reading import bounded, domain_of, key_of
 from nddl_lang.lint.requests import ChildRequest, child_requests
 from nddl_lang.lint.temporal import RuleTimes
 from nddl_lang.semantics.literals import number
-from nddl_lang.semantics.schema import ClassReference, Domain, EnumValue, Label, MemberReference, Variable
+from nddl_lang.semantics.schema import (
+    ClassReference,
+    Domain,
+    EnumValue,
+    GlobalReference,
+    Label,
+    MemberReference,
+    Variable,
+)
 from nddl_lang.syntax.nodes import (
     Allocation,
     Assignment,
@@ -20,6 +28,7 @@ from nddl_lang.syntax.nodes import (
     Expr,
     ExprConstraint,
     GoalStatement,
+    Identifier,
     MethodCall,
     NewExpr,
     PathExpr,
@@ -40,7 +49,7 @@ class Gist:
     """What one statement contributes to the picture of the whole."""
 
     variables: frozenset[Variable] = frozenset()  # read or written, apart from their declaration
-    written: frozenset[Variable] = frozenset()  # members that only get a value, in a constructor
+    written: frozenset[Variable] = frozenset()  # that only get a value: members in a constructor, globals in the script
     words: frozenset[str] = frozenset()  # names of types and enum values, and the texts of strings
     names: frozenset[str] = frozenset()  # of the variables that it declares
     parameters: frozenset[Variable] = frozenset()  # of the predicates of a class, those without a value
@@ -72,6 +81,9 @@ def gist(part: Part) -> Gist:
     written: set[Variable] = set()
     if isinstance(part.node, ClassDecl):
         variables, written = _class_uses(part, variables)
+    elif (variable := _given_value(part)) is not None:
+        written = {variable}
+        variables = variables - written
     return Gist(
         frozenset(variables),
         frozenset(written),
@@ -103,6 +115,28 @@ def _class_uses(part: Part, variables: set[Variable]) -> tuple[set[Variable], se
                 read.update(reference.members)
     members = {member for reference in part.tables.references.values() for member in getattr(reference, "members", ())}
     return (variables - members) | read, written - read
+
+
+def _given_value(part: Part) -> Variable | None:
+    """The global variable that a statement of the script does nothing with but to give it a value."""
+    match part.node:
+        case (
+            Assignment(target=target, value=value)
+            | MethodCall(target=target, method=Identifier(name="specify"), arguments=(value,))
+        ):
+            pass
+        case ExprConstraint(expression=BinaryExpr(op="==", left=target, right=value)) if (
+            domain_of(part, value) is not None
+        ):
+            pass
+        case _:
+            return None
+    reference = part.reference(target) if isinstance(target, PathExpr) else None
+    if not isinstance(reference, GlobalReference):
+        return None
+    mentioned = (part.reference(node) for node in part.all(PathExpr) if node is not target)
+    is_read = any(isinstance(one, GlobalReference) and one.variable is reference.variable for one in mentioned)
+    return None if is_read else reference.variable
 
 
 def _parameters(part: Part) -> Iterator[Variable]:

@@ -1,6 +1,6 @@
 """Find names inside one rule or constructor that nothing uses, and names that hide others."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from nddl_lang.lint.codes import (
     HIDDEN_GLOBAL,
@@ -12,6 +12,7 @@ from nddl_lang.lint.codes import (
     UNUSED_LOCAL,
 )
 from nddl_lang.lint.part import Facts, Finding, Part, mentioned_labels
+from nddl_lang.lint.reading import domain_of
 from nddl_lang.lint.removal import undeclare
 from nddl_lang.semantics.schema import (
     GlobalReference,
@@ -22,14 +23,17 @@ from nddl_lang.semantics.schema import (
     Variable,
 )
 from nddl_lang.syntax.nodes import (
+    BinaryExpr,
     ConstructorDecl,
     Declarator,
+    ExprConstraint,
     Foreach,
     FormalParameter,
     Identifier,
     IfStatement,
     Instance,
     NewExpr,
+    PathExpr,
     PredicateDecl,
     RuleDecl,
     VariableDecl,
@@ -38,10 +42,12 @@ from nddl_lang.text.diagnostic import Code, Diagnostic, Note
 from nddl_lang.text.source import Span
 
 
-def used_variables(part: Part) -> set[Variable]:
-    """The variables that a statement refers to, apart from declaring them."""
+def used_variables(part: Part, but: Collection[object] = ()) -> set[Variable]:
+    """The variables that a statement refers to, apart from declaring them and in the names `but`."""
     used: set[Variable] = set()
-    for reference in part.tables.references.values():
+    for node, reference in part.tables.references.items():
+        if node in but:
+            continue
         base = reference.base if isinstance(reference, MemberReference) else reference
         if isinstance(base, LocalReference | GlobalReference):
             used.add(base.variable)
@@ -56,18 +62,22 @@ def lint_unused_locals(part: Part) -> Iterator[Finding]:
     """A rule's local variable, or a constructor's parameter, that nothing refers to."""
     if isinstance(part.node, RuleDecl):
         used = used_variables(part)
+        read = used_variables(part, _given_names(part))
         for node in part.all(VariableDecl):
             for index, declarator in enumerate(node.declarators):
                 variable = part.tables.locals.get(declarator)
-                if variable is None or variable in used or isinstance(declarator.initialiser, NewExpr):
+                if variable is None or variable in read or isinstance(declarator.initialiser, NewExpr):
                     continue
-                if declarator.name.span not in _hidden_places(part):
+                if variable in used:
+                    if declarator.initialiser is None and variable.type.restriction is None:
+                        yield UNUSED_LOCAL.at(declarator.name.span, name=variable.name, done="read")
+                elif declarator.name.span not in _hidden_places(part):
                     yield _unused_local(node, index, declarator, variable)
         for loop in part.all(Foreach):
             turned = part.tables.declared.get(loop.variable)
             if isinstance(turned, Variable) and turned not in used and loop.body:
                 help_ = "each turn of the loop asks for the same; say of which object it speaks"
-                yield UNUSED_LOCAL.at(loop.variable.span, help=help_, name=loop.variable.name)
+                yield UNUSED_LOCAL.at(loop.variable.span, help=help_, name=loop.variable.name, done="used")
     elif constructors := part.all(ConstructorDecl):
         used = used_variables(part)
         for constructor in constructors:
@@ -77,13 +87,24 @@ def lint_unused_locals(part: Part) -> Iterator[Finding]:
                     yield UNUSED_FORMAL.at(formal.name.span, name=formal.name.name)
 
 
+def _given_names(part: Part) -> set[object]:
+    """Names that stand in a rule for nothing but to get a constant; what is drawn and not used NDDL562 tells."""
+    names: set[object] = set()
+    for one in part.all(ExprConstraint):
+        match one.expression:
+            case BinaryExpr(op="==", left=PathExpr(parts=parts) as left, right=right):
+                if not isinstance(right, PathExpr) and domain_of(part, right) is not None:
+                    names |= {left, *parts}
+    return names
+
+
 def _unused_local(node: VariableDecl, index: int, declarator: Declarator, variable: Variable) -> Finding:
     help_ = None
     if variable.type.kind is Kind.OBJECT:
         help_ = "a search has to choose an object for it all the same"
     is_free = variable.type.kind in (Kind.INT, Kind.FLOAT, Kind.STRING) and declarator.initialiser is None
     fix = undeclare(node, index, safe=is_free)
-    return UNUSED_LOCAL.at(declarator.name.span, help=help_, fixes=(fix,), name=variable.name)
+    return UNUSED_LOCAL.at(declarator.name.span, help=help_, fixes=(fix,), name=variable.name, done="used")
 
 
 def lint_unused_labels(part: Part) -> Iterator[Finding]:

@@ -29,7 +29,7 @@ _WHOLE = (
 NAME_PAGES = (
     RulePage(
         UNUSED_LOCAL,
-        "A rule declares a local variable, or that of a loop, and never refers to it.",
+        "A rule declares a local variable, or that of a loop, and never refers to it, or only to give it a constant.",
         "It says nothing about the plan; of a class, an enum or a bool it even is a decision that a search has to "
         "take.",
         _ARM + "Arm::grab { int speed; force >= 2; }\n",
@@ -51,7 +51,7 @@ NAME_PAGES = (
     ),
     RulePage(
         UNUSED_GLOBAL,
-        "Nothing in the model refers to this global variable.",
+        "Nothing in the model reads this global variable; at most the script gives it a value.",
         "It is left over, or its name is mistyped where it was meant to be used." + _WHOLE,
         _ARM + "int LEAST = 2;\nArm::grab { force >= 2; }\nArm arm = new Arm();\n",
         _ARM + "int LEAST = 2;\nArm::grab { force >= LEAST; }\nArm arm = new Arm();\n",
