@@ -18,6 +18,7 @@ _WORLD = (
 )
 _BOUNDING = (ElementKind.CONSTRAINT, ElementKind.DURATION)
 _VALUES = (ElementKind.ASSIGNMENT, ElementKind.DECLARATION)
+_GIVEN = (*_VALUES, ElementKind.REQUEST)
 # Kinds of elements that say when something may be.
 _TIMING = (ElementKind.CLOCK, ElementKind.RELATION, ElementKind.ORDER, ElementKind.LONGEST, ElementKind.SHARED_END)
 _LIMITS = ("leq", "lt", "neq", "bounds", "withinBounds", "precedes", "strictlyPrecedes")
@@ -55,8 +56,9 @@ def culprit_of(conflict: Conflict | None) -> Culprit:
     roots = _roots(conflict, (ElementKind.SAMPLE,)) or _roots(conflict, _WORLD)
     far = _distances(neighbours, roots)
     own = set(own_elements(conflict))
+    checks = checks_of(conflict)
     candidates = [
-        (_rank(element), element not in own, -far.get(number, len(elements)), -number)
+        (0 if element in checks else _rank(element), element not in own, -far.get(number, len(elements)), -number)
         for number, element in enumerate(elements)
         if element.place is not None and element.kind not in _WORLD
     ]
@@ -69,6 +71,14 @@ def culprit_of(conflict: Conflict | None) -> Culprit:
         if number in neighbours[chosen] and element.kind in _VALUES and element.place != elements[chosen].place
     ]
     return Culprit(chosen, elements[chosen], tuple(place for place in dict.fromkeys(limits) if place is not None))
+
+
+def checks_of(conflict: Conflict | None) -> list[ConflictElement]:
+    """The constraints that only compare what constructors, constants and requests give: even `==` sets nothing there."""
+    elements = conflict.elements if conflict is not None else ()
+    given = {variable for element in elements if element.kind in _GIVEN for variable in element.variables}
+    constraints = [element for element in elements if element.kind is ElementKind.CONSTRAINT]
+    return [element for element in constraints if element.variables and given.issuperset(element.variables)]
 
 
 def own_elements(conflict: Conflict | None) -> list[ConflictElement]:

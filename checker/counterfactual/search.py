@@ -23,7 +23,7 @@ from checker.counterfactual.remarks import remarks_of, with_remarks
 from checker.counterfactual.trials import Trials, try_out
 from checker.counterfactual.usage import usage_of
 from checker.coverage import Universe
-from checker.culprit import is_of_values
+from checker.culprit import checks_of, is_of_values
 from checker.limits import Limit
 from checker.mission import Mission
 from checker.mutation.additions import with_additions
@@ -36,9 +36,10 @@ from checker.proofs.places import text_of
 from checker.sampling.sampler import with_point
 from compiler.program import Program
 from nddl_lang.text.diagnostic import Diagnostic
+from nddl_lang.text.read import real_path
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.events import single_events
-from runtime.executive.outcome import ElementKind
+from runtime.executive.outcome import ElementKind, Outcome
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -106,7 +107,12 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     assert outcome is not None
     missions = _as_flown(missions, world.agent)
     sampled = {parameter.name for parameter in world.agent.parameters}
-    sites = [site for site in sites_in(world.agent, world.overlay) if site.named not in sampled]
+    checks = _checks_in(outcome, Path(world.agent.root))
+    sites = [
+        replace(site, is_check=(site.file, site.first, site.column) in checks)
+        for site in sites_in(world.agent, world.overlay)
+        if site.named not in sampled
+    ]
     graph = Dependence(world.programs, sites)
     sites_reached = Universe(world.programs).sites
     exercised = [site.span for number, site in enumerate(sites_reached) if number in missions.exercised]
@@ -120,6 +126,12 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     bounds = bounds.grown(sum(len(one.site.edits) for one in candidates), len(outcome.events))
     trials = try_out(candidates, missions, usage, partial(_fly, world), bounds, last, graph.beside)
     return replace(trials, loose=loose_ends(graph, candidates, usage))
+
+
+def _checks_in(outcome: Outcome, root: Path) -> set[tuple[str, int, int]]:
+    """File, line and column of the constraints that only compare what is given, in the conflict of a failed mission."""
+    places = [one.place for one in checks_of(failed_by(outcome).conflict) if one.place is not None]
+    return {(str(real_path(root / place.file)), place.line, place.column) for place in places}
 
 
 def _raised_in(failed: MissionResult) -> RankedLine | None:

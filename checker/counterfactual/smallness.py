@@ -98,7 +98,7 @@ def is_loosening(edit: SmallEdit, site: EditSite) -> bool:
         edit.kind in DROPPED
         or (is_comparison and sign_of(edit.old) == _EQUAL and SAMPLED.search(site.text) is not None)
         or (edit.kind is EditKind.RELATION and edit.new == _LOOSE)
-        or (is_comparison and sign_of(edit.new) == _UNEQUAL)
+        or (is_comparison and sign_of(edit.new) == _UNEQUAL and not site.is_check)
     )
 
 
@@ -292,7 +292,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.SETTING:
             return _BETWEEN if octaves(edit) <= 1.0 else -0.3
         case EditKind.DROPPED_CONSTRAINT:
-            return _LATE if sets_value(edit.old) else 0.3
+            return _LATE if sets_value(edit.old) and not site.is_check else 0.3
         case EditKind.DROPPED_BRANCH:
             return 1.0
         case EditKind.SWAP:
@@ -303,7 +303,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             if edit.new == _LOOSE:
                 return 0.3
             return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
-        case EditKind.COMPARISON if sign_of(edit.new) == _UNEQUAL:
+        case EditKind.COMPARISON if sign_of(edit.new) == _UNEQUAL and not site.is_check:
             return _LATE
         case EditKind.COMPARISON if is_asked_for(edit, usage.affinity.sign_of(edit, site)):
             return _KIN_SOON
@@ -323,7 +323,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return 0.4 if abs(float(edit.old)) <= _FEW else None
 
 
-def is_probe(edit: SmallEdit) -> bool:
+def is_probe(edit: SmallEdit, site: EditSite) -> bool:
     """Whether an edit leaves out a limit or a relation: a value that is not set would fail all the same."""
-    is_limit = edit.kind is EditKind.DROPPED_CONSTRAINT and not sets_value(edit.old)
+    is_limit = edit.kind is EditKind.DROPPED_CONSTRAINT and (site.is_check or not sets_value(edit.old))
     return is_limit or (edit.kind is EditKind.RELATION and edit.new == _LOOSE)

@@ -157,7 +157,7 @@ def try_out(
         is_spoken = _is_spoken(candidate)
         far = max(candidate.far - candidate.nearer - _CONSTANT * candidate.site.is_number, 0.0)
         for delay, edit in first_edits(candidate.site, usage):
-            if is_probe(edit) and is_spoken:
+            if is_probe(edit, candidate.site) and is_spoken:
                 delay = min(delay, _PROBE)
             if is_doubling(edit) and _is_culprit(candidate):
                 delay = min(delay, _OTHER_WAY)
@@ -199,7 +199,7 @@ def try_out(
             if trials.is_lost:
                 turns.avoid(edit)
             if trials.is_lost or (is_told and course_of(result) == course):
-                turns.doubt(site, None if is_probe(edit) else edit.begin)
+                turns.doubt(site, None if is_probe(edit, site) else edit.begin)
             if result.verdict is Verdict.FAIL and is_farther(result, failed[0]):
                 turns.encourage(site)
             turns.tire(site)

@@ -52,7 +52,7 @@ def sort_of(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
     is_point = _POINTS.fullmatch(site.text) is not None
     if is_demand and SAMPLED.search(site.text):
         sort = "sampled"
-    elif is_demand:
+    elif is_demand and not site.is_check:
         is_rounded = _ROUNDED.search(site.text) is not None
         sort = "point" if is_point else "value" if not _is_about_time(site) else "rounded" if is_rounded else "time"
     else:

@@ -85,7 +85,8 @@ class EditSite:
     `is_apart`: the two can hardly be compared. `wanted` edits, given alike, make of a copy what it was copied for.
     `unlike` edits, given alike, write a whole number for a real one, or the other way round, unless they agree.
     `inputs` are the numbers, each with its type, that the token of a rule brings along, told at its head.
-    `coded` is the constraint of the project's own that it calls, in Python.
+    `coded` is the constraint of the project's own that it calls, in Python. `is_check`: a conflict shows that it only
+    compares what others give.
     """
 
     file: str
@@ -106,6 +107,7 @@ class EditSite:
     wanted: frozenset[tuple[int, str]] = frozenset()
     unlike: frozenset[tuple[int, str]] = frozenset()
     inputs: tuple[tuple[str, str], ...] = ()
+    is_check: bool = False
 
     def holds(self, file: str, line: int) -> bool:
         """Whether a place is one of its lines."""
