@@ -74,7 +74,7 @@ def culprit_of(conflict: Conflict | None) -> Culprit:
 
 
 def checks_of(conflict: Conflict | None) -> list[ConflictElement]:
-    """The constraints that only compare what constructors, constants and requests give: even `==` sets nothing there."""
+    """The constraints that only compare what constructors, constants and requests give: even `==` sets nothing."""
     elements = conflict.elements if conflict is not None else ()
     given = {variable for element in elements if element.kind in _GIVEN for variable in element.variables}
     constraints = [element for element in elements if element.kind is ElementKind.CONSTRAINT]

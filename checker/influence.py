@@ -5,37 +5,59 @@ It says how a draw acts inside the simulator when the conflict was found in anot
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from compiler.instructions import branched_instructions
+from checker.single_values import single_value
+from compiler.instructions import all_instructions, branched_instructions
 from compiler.program import (
     DURATION,
     END,
+    FIRST_PARAMETER,
     START,
+    Constant,
     Instruction,
     LocalVariable,
+    Operand,
     Post,
     Program,
+    RuleCode,
     Sample,
     TokenVariable,
 )
 from nddl_lang.text.source import Span
+from runtime.executive.messages import Arguments
 from runtime.executive.outcome import SourcePlace
 
+_TESTS = {"testEq": True, "testNeq": False}
 Branch = tuple[str, int, str]  # the file and offset of a guard, and `then` or `else`
+
+
+@dataclass(frozen=True, slots=True)
+class ArgumentCondition:
+    """A condition that an argument of the rule's own token is `value`, or, unless `is_equal`, another one."""
+
+    argument: str
+    value: float | str
+    is_equal: bool
+
+    def fails(self, arguments: Arguments) -> bool:
+        """Whether a token with such arguments does not fulfil it."""
+        seen = single_value(dict(arguments).get(self.argument))
+        return seen is not None and (seen == self.value) is not self.is_equal
 
 
 @dataclass(frozen=True, slots=True)
 class InfluenceLine:
     """A line of a rule that passes a draw on; `rule` is its predicate with the class, `predicate` without.
 
-    It does so in missions that take all `branches` in which it stands.
+    It does so in missions that take all `branches` in which it stands, of tokens that fulfil all `tests`.
     """
 
     rule: str
     predicate: str
     place: SourcePlace
     branches: tuple[Branch, ...] = ()
+    tests: tuple[ArgumentCondition, ...] = ()
 
 
 Influence = Mapping[str, tuple[InfluenceLine, ...]]  # by parameter
@@ -51,17 +73,34 @@ def lines_of_influence(program: Program, parameter: str) -> tuple[InfluenceLine,
         predicate = rule.predicate.rpartition(".")[2]
         placed = list(branched_instructions(rule.body))
         body = [instruction for instruction, _ in placed]
-        branches = {
-            id(instruction): tuple(branch_of(guard.span, branch_name(is_else)) for guard, is_else in within)
-            for instruction, within in placed
-        }
+        within = {id(instruction): branches for instruction, branches in placed}
+        tests = _tests_of(program, rule)
         for instruction in body:
             if isinstance(instruction, Sample) and instruction.parameter == parameter:
                 found: list[Sample | Post] = [instruction, *_slice(body, instruction)]
-                lines += [
-                    InfluenceLine(rule.predicate, predicate, line_of(one.span), branches[id(one)]) for one in found
-                ]
+                for one in found:
+                    stands = within[id(one)]
+                    branches = tuple(branch_of(guard.span, branch_name(is_else)) for guard, is_else in stands)
+                    known = [(tests[guard.condition], is_else) for guard, is_else in stands if guard.condition in tests]
+                    fulfilled = tuple(replace(test, is_equal=test.is_equal is not is_else) for test, is_else in known)
+                    lines.append(InfluenceLine(rule.predicate, predicate, line_of(one.span), branches, fulfilled))
     return tuple(dict.fromkeys(lines))
+
+
+def _tests_of(program: Program, rule: RuleCode) -> dict[Operand, ArgumentCondition]:
+    """What conditions of a rule say of the arguments of its own token, by the variables that hold their truth."""
+    names = next((one.parameters for one in program.predicates if one.name == rule.predicate), ())
+    found: dict[Operand, ArgumentCondition] = {}
+    for step in all_instructions(rule.body):
+        if isinstance(step, Post) and step.name in _TESTS:
+            match step.operands:
+                case (truth, TokenVariable(token=0, variable=at), Constant(domain=domain)) if at >= FIRST_PARAMETER:
+                    value = single_value(domain)
+                    if value is not None:
+                        found[truth] = ArgumentCondition(names[at - FIRST_PARAMETER].name, value, _TESTS[step.name])
+                case _:
+                    pass
+    return found
 
 
 def branch_name(is_else: bool) -> str:

@@ -4,12 +4,13 @@ A static slice, against the way of the value: from the argument of a child throu
 parameters of its own token, and on through the rules that ask for that token, in whatever reactor.
 """
 
-from collections.abc import Collection, Container, Iterable, Iterator, Mapping
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from checker.influence import Branch, InfluenceLine, branch_name, branch_of, line_of
 from checker.names import relative_name
+from checker.single_values import single_value
 from compiler.instructions import all_instructions, branched_instructions
 from compiler.program import (
     FIRST_PARAMETER,
@@ -29,10 +30,13 @@ from compiler.program import (
     RuleCode,
     TokenVariable,
 )
+from runtime.executive.events import single_events
 from runtime.executive.outcome import ConflictElement, ElementKind, Event, EventKind, SourcePlace
 from runtime.plan.readout.names import VariableName
 
 _EQUAL = "eq"
+_TELLING = (EventKind.OBSERVATION, EventKind.REQUEST)
+_Wanted = tuple[tuple[str, str], float | str | None]  # predicate and parameter, and its value if that is known
 _MOST = 6  # lines that are told of one argument
 
 
@@ -45,38 +49,55 @@ class PlannerChoice:
     place: SourcePlace | None
 
 
+@dataclass(frozen=True, slots=True)
+class _Asking:
+    """The lines of a rule that say what a parameter of a child is.
+
+    It comes from the own parameters `behind`, of which those `handed` on have the same value.
+    """
+
+    rule: str
+    lines: tuple[InfluenceLine, ...]
+    behind: tuple[str, ...]
+    handed: frozenset[str]
+
+
 def lines_that_ask(
     element: ConflictElement,
     programs: Mapping[str, Program],
     root: Path,
     held: Collection[str],
     taken: Container[Branch] | None = None,
+    events: Sequence[Event] = (),
 ) -> tuple[InfluenceLine, ...]:
     """The lines by which an argument came to be asked for, the outermost first; none for a time.
 
     `programs` are those of the reactors by name, `held` the predicates, without their classes, of what has happened,
-    `taken` the branches that were taken, if that is known: others have asked for nothing.
+    `taken` the branches that were taken, if that is known: others have asked for nothing. Nor have tokens that handed
+    another value on, by `events`, where one has handed on this.
     """
     variable = _asked_variable(element)
     if variable is None or variable.token is None:
         return ()
     found: dict[InfluenceLine, None] = {}
-    first = (variable.token.predicate, variable.name)
+    first: _Wanted = (variable.token.predicate, variable.name), _value(element)
     numbers = {reactor: dict(_numbers(program)) for reactor, program in programs.items()}
     done: set[tuple[str, str]] = set()
     waiting = [first]
     while waiting:
-        wanted = waiting.pop(0)
+        wanted, value = waiting.pop(0)
         if wanted in done:
             continue
         done.add(wanted)
-        for reactor, program in programs.items():
-            for rule in program.rules if wanted != first or reactor != variable.reactor else ():
-                if rule.predicate.rpartition(".")[2] in held:
-                    value = _value(element) if wanted == first else None
-                    lines, behind = _asking(program, rule, wanted, numbers[reactor], value, taken)
-                    found |= dict.fromkeys(lines)
-                    waiting += [(rule.predicate, one) for one in behind]
+        asking = [
+            _asking(program, rule, wanted, numbers[reactor], value, taken)
+            for reactor, program in programs.items()
+            for rule in (program.rules if wanted != first[0] or reactor != variable.reactor else ())
+            if rule.predicate.rpartition(".")[2] in held
+        ]
+        for one in _with_value(asking, value, events):
+            found |= dict.fromkeys(one.lines)
+            waiting += [((one.rule, name), value if name in one.handed else None) for name in one.behind]
     return tuple(
         replace(line, place=replace(line.place, file=relative_name(line.place.file, root)))
         for line in reversed(list(found)[:_MOST])
@@ -113,15 +134,32 @@ def _asked_variable(element: ConflictElement) -> VariableName | None:
     return next(iter(element.variables), None) if is_asked else None
 
 
-def _value(element: ConflictElement) -> float | None:
-    """The one number that was asked for; None where it is none."""
+def _value(element: ConflictElement) -> float | str | None:
+    """The one value that was asked for; None where it is not known."""
     for term in element.terms:
-        match term.name, term.arguments:
-            case "bounds", (_, int() | float() as lower, int() | float() as upper) if lower == upper:
+        match term.name, term.arguments, term.values:
+            case "bounds", _, (name,):
+                return name
+            case "bounds", (_, int() | float() as lower, int() | float() as upper), () if lower == upper:
                 return float(lower)
             case _:
                 pass
     return None
+
+
+def _with_value(asking: Sequence[_Asking], value: float | str | None, events: Sequence[Event]) -> Sequence[_Asking]:
+    """Of the rules that ask those whose tokens had the value where they hand it on, if any had, and all others."""
+    if value is None or sum(bool(one.lines) for one in asking) < 2 or not any(one.handed for one in asking):
+        return asking
+    had = {one.rule for one in asking if one.handed and value in _values(one, events)}
+    return [one for one in asking if not had or not one.handed or one.rule in had]
+
+
+def _values(asking: _Asking, events: Sequence[Event]) -> set[object]:
+    """The values that tokens had, observed or asked for, of the parameters that a rule hands on."""
+    wanted = asking.rule.rpartition(".")[2]
+    about = (one for one in single_events(events) if one.predicate == wanted and one.kind in _TELLING)
+    return {single_value(domain) for one in about for name, domain in one.arguments if name in asking.handed}
 
 
 def _asking(
@@ -129,9 +167,9 @@ def _asking(
     rule: RuleCode,
     wanted: tuple[str, str],
     numbers: Mapping[Operand, float],
-    value: float | None,
+    value: float | str | None,
     taken: Container[Branch] | None,
-) -> tuple[list[InfluenceLine], list[str]]:
+) -> _Asking:
     """The lines of a rule that say what a parameter of a child is, and the own parameters that this comes from."""
     predicate, name = wanted
     body = [step for step, within in branched_instructions(rule.body) if taken is None or _is_taken(within, taken)]
@@ -155,7 +193,15 @@ def _asking(
     names = _names(program, rule.predicate)
     behind = [names[one - FIRST_PARAMETER] for one in sorted(own) if 0 <= one - FIRST_PARAMETER < len(names)]
     lines = [InfluenceLine(rule.predicate, rule.predicate.rpartition(".")[2], line_of(post.span)) for post in posts]
-    return lines, behind
+    equal = [post.operands for post in posts if post.name == _EQUAL]
+    handed = {
+        names[one.variable - FIRST_PARAMETER]
+        for operands in equal
+        if children & {each.token for each in operands if isinstance(each, TokenVariable) and each.variable == at}
+        for one in operands
+        if isinstance(one, TokenVariable) and one.token == 0 and 0 <= one.variable - FIRST_PARAMETER < len(names)
+    }
+    return _Asking(rule.predicate, tuple(lines), tuple(behind), frozenset(handed))
 
 
 def _is_taken(within: Iterable[tuple[Guard, bool]], taken: Container[Branch]) -> bool:
@@ -163,7 +209,9 @@ def _is_taken(within: Iterable[tuple[Guard, bool]], taken: Container[Branch]) ->
     return all(branch_of(guard.span, branch_name(is_else)) in taken for guard, is_else in within)
 
 
-def _sets(post: Post, reached: Collection[Operand], numbers: Mapping[Operand, float], value: float | None) -> bool:
+def _sets(
+    post: Post, reached: Collection[Operand], numbers: Mapping[Operand, float], value: float | str | None
+) -> bool:
     """Whether a constraint speaks of what is reached, and does not say that it is another value than was asked for."""
     if not set(post.operands) & set(reached):
         return False

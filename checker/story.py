@@ -177,15 +177,21 @@ def _acting(
     taken: Container[Branch] | None,
     conflicts: Sequence[Conflict],
 ) -> Influence:
-    """Lines that a mission came to up to a tick, on branches that it took, and those of which its conflicts speak."""
-    begun = {predicate for _, tick, _, predicate in heads_of(outcome.events) if tick <= until}
+    """Lines that a mission came to up to a tick, on branches that it took, and those of which its conflicts speak.
+
+    Of branches that hang on an argument it is the last token of the rule that counts: that one is told.
+    """
+    begun = {predicate: index for index, tick, _, predicate in heads_of(outcome.events) if tick <= until}
     places = [one.place for conflict in conflicts for one in conflict.elements if one.place is not None]
     spoken = {(place.file, place.line) for place in places}
 
     def acts(line: InfluenceLine) -> bool:
         if (line.place.file, line.place.line) in spoken:
             return True
-        return line.predicate in begun and (taken is None or all(branch in taken for branch in line.branches))
+        if line.predicate not in begun or (taken is not None and any(one not in taken for one in line.branches)):
+            return False
+        arguments = outcome.events[begun[line.predicate]].arguments if line.tests else ()
+        return not any(test.fails(arguments) for test in line.tests)
 
     return {name: tuple(line for line in lines if acts(line)) for name, lines in influence.items()}
 
@@ -279,7 +285,7 @@ def _with_askers(
     for step in steps:
         if isinstance(step.subject, ConflictElement) and text is not None:
             asking = (step.subject, text.programs, text.root, held)
-            lines = lines_that_ask(*asking, taken)
+            lines = lines_that_ask(*asking, taken, outcome.events)
             yield from (Step(StepKind.ASKED, None, line, line.place) for line in lines)
             chosen = None if lines else who_chose(step.subject, text.programs, events, text.root)
             if chosen is not None and not lines_that_ask(*asking):

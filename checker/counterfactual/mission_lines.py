@@ -13,6 +13,7 @@ from checker.causes import failed_by, timed_requests
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.mission import Mission
 from checker.mutation.mission_edits import mission_sites
+from checker.single_values import single_value
 from compiler.program import DomainConstant
 from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.events import single_events
@@ -114,7 +115,4 @@ def _is_asked(goal: GoalConfiguration, timeline: str, predicate: str, arguments:
 
 def _plain(value: object) -> object:
     """The one value of a domain, which is what a goal has that the planner gave up; anything else as it is."""
-    if not isinstance(value, DomainConstant):
-        return value
-    values = tuple(dict.fromkeys(value.interval if value.interval is not None else value.values or ()))
-    return values[0] if len(values) == 1 else None
+    return single_value(value) if isinstance(value, DomainConstant) else value
