@@ -213,6 +213,7 @@ agents: build
 
 second: build
 	$(BIN)/python -m tests.executive.second.campaign $(AGENTS)
+	$(BIN)/python -m tests.executive.second.campaign $(AGENTS) --turns
 	NDDLC_CASES=all $(PYTEST) tests/executive/test_second.py
 
 renames: build

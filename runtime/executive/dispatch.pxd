@@ -1,7 +1,7 @@
 # The C types of `dispatch.py`.
 
 cimport cython
-from runtime.executive.holding cimport free_at, hangs_on_action, is_blocked, is_tied
+from runtime.executive.holding cimport due_start, free_at, hangs_on_action, is_blocked, is_tied, keeps_next
 from runtime.executive.timelines cimport TimelineState
 from runtime.executive.view cimport whole_bound
 from runtime.executive.workbench cimport Workbench
@@ -37,13 +37,12 @@ cdef class Dispatch:
 
     cpdef bint _is_due(self, TimelineState line, long long token, long long tick, long long final_tick) except -1
 
-    @cython.locals(bench=Workbench, start="long long", time=double)
+    @cython.locals(time=double)
     cpdef double due_time(self, TimelineState line, long long token, long long tick) except? -1.0
 
     @cython.locals(before="long long", bench=Workbench, token="long long")
     cpdef double next_due(self, TimelineState line, long long tick) except? -1.0
 
-    @cython.locals(current="long long")
     cpdef long long open_now(self, TimelineState line) except? -1
 
     @cython.locals(before="long long", bench=Workbench, token="long long")

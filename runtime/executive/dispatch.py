@@ -1,6 +1,6 @@
 """Decide which planned tokens are asked of the owners of their timelines, and when requests are taken back."""
 
-from runtime.executive.holding import free_at, hangs_on_action, is_blocked, is_tied
+from runtime.executive.holding import due_start, free_at, hangs_on_action, is_blocked, is_tied, keeps_next
 from runtime.executive.messages import Request
 from runtime.executive.outcome import EventKind, TimeBounds
 from runtime.executive.timelines import NOTHING, TimelineState
@@ -26,6 +26,7 @@ class Dispatch:
         self.over: dict[int, None] = {}  # of these, what something else has followed: there is nothing to take back
         self.is_repaired = False  # the plan was repaired since requests were last compared with it
         bench.asked = self.sent
+        bench.defaults = {line.object_id: line.default for line in timelines}
 
     def is_asked(self, token: int) -> bool:
         """Whether the owner has been asked for a token that is not over."""
@@ -114,12 +115,9 @@ class Dispatch:
     def due_time(self, line: TimelineState, token: int, tick: int) -> float:
         """The tick at which the owner is to be asked for a token (T-REX 1.8).
 
-        That is as soon as its earliest start is in the owner's window; its latest, where it follows from a token of
-        this reactor that has not begun and that begins as late as it may.
+        That is as soon as its earliest start, or the later one that counts for it, is in the owner's window.
         """
-        start = self.bench.start(token)
-        is_late = self.bench.waits_for_own(token, tick)
-        time = self.bench.upper(start) if is_late else self.bench.lower(start)
+        time = due_start(self.bench, token, tick)
         # What has not started may do so from the next tick on.
         return time - max(self.notice(line), 1)
 
@@ -140,14 +138,8 @@ class Dispatch:
         return INFINITY
 
     def open_now(self, line: TimelineState) -> int:
-        """The current token of a timeline if that was asked for, and what comes next waits for its end; or NOTHING.
-
-        What holds there by default is over when something else is asked for, also where that was asked for itself.
-        """
-        current = line.current
-        if current == NOTHING or not self.is_asked(current):
-            return NOTHING
-        return NOTHING if self.bench.is_met_by(self.bench.predicate_of(current), line.default) else current
+        """The current token of a timeline if that was asked for, and what comes next waits for its end; or NOTHING."""
+        return line.current if line.current != NOTHING and keeps_next(self.bench, line.current) else NOTHING
 
     def next_request(self, line: TimelineState) -> int:
         """The planned token that is to be asked for next; NOTHING while another is open, or where none is planned.

@@ -5,6 +5,7 @@ from runtime.constraints.domains.sparse_set cimport SparseSet
 from runtime.constraints.engine cimport Engine
 from runtime.executive.workbench cimport Workbench
 from runtime.plan.store.plan cimport Plan
+from runtime.plan.store.rows cimport Rows
 
 cdef long long END, FLAG_ACTION, FLAG_CONDITION, FLAG_EFFECT, INFINITY, NONE, ROLE_TOKEN
 cdef long long SPAN_CLOCK, SPAN_EXECUTIVE, START, SUPPORT_EDGE, SUPPORT_RESTRICTION
@@ -15,8 +16,22 @@ cpdef bint is_blocked(Workbench bench, long long t, long long current, long long
 
 cpdef bint hangs_on_action(Workbench bench, long long t) except -1
 
+@cython.locals(
+    begins="long long", by="long long", found=double, is_free=bint, mark="long long", start="long long",
+    wanted="long long"
+)
+cpdef double due_start(Workbench bench, long long t, long long tick) except? -1.0
+
+@cython.locals(
+    asking="long long", followed=SparseSet, i="long long", o="long long", one="long long", other="long long",
+    parent="long long", rows=Rows
+)
+cpdef long long _wanted_by(Workbench bench, long long t) except? -2
+
 @cython.locals(engine=Engine, free=double, start="long long", v="long long")
 cpdef double free_at(Workbench bench, long long t, long long current, long long tick) except? -1.0
+
+cpdef bint keeps_next(Workbench bench, long long t) except -1
 
 @cython.locals(engine=Engine, mark="long long", may_wait=bint)
 cpdef bint is_tied(Workbench bench, long long end, long long start) except -1

@@ -33,6 +33,51 @@ def hangs_on_action(bench: Workbench, t: int) -> bool:
     return False
 
 
+def due_start(bench: Workbench, t: int, tick: int) -> float:
+    """The start of `t` that counts for when its owner is to be asked: the earliest, or, where it may be late, another.
+
+    That is the latest where it follows from a token of this reactor that begins as late as it may. What only follows
+    what holds on its own timeline (`Open { meets(Closed c); }`) leaves that as long as it may go on: the latest start
+    counts that delays nothing of what is wanted behind it.
+    """
+    start, wanted, by = bench.start(t), t, t
+    if not hangs_on_action(bench, t):
+        bench.met.empty(bench.rows.token_count)
+        while (by := _wanted_by(bench, wanted)) < 0 and wanted >= 0:
+            wanted = bench.following(wanted)
+    if by < 0 or bench.waits_for_own(by, tick):
+        return bench.upper(start)
+    if wanted == t:
+        return bench.lower(start)
+    mark, begins = bench.mark(), bench.start(wanted)
+    is_free = bench.at_most(begins, bench.lower(begins), SPAN_EXECUTIVE, wanted)
+    found = bench.upper(start) if is_free else bench.lower(start)
+    bench.rewind_to(mark)
+    bench.release(mark)
+    return found
+
+
+def _wanted_by(bench: Workbench, t: int) -> int:
+    """The token by which `t`, or what follows and asked for it, is asked for from outside of its timeline; or NONE."""
+    if t < 0:
+        return NONE
+    rows, o, followed = bench.rows, bench.object_of(t), bench.met
+    i = followed.count
+    followed.add(t)
+    while i < followed.count:
+        one = other = followed.items[i]
+        while other >= 0:
+            parent = rows.parent[other]
+            asking = parent if parent < 0 else bench.stands_for(parent)
+            if asking < 0 or bench.object_of(asking) != o:
+                return other
+            if bench.lower(bench.start(asking)) > bench.lower(bench.start(one)):
+                followed.add(asking)
+            other = rows.merged[one] if other == one else rows.merged_next[other]
+        i += 1
+    return NONE
+
+
 def free_at(bench: Workbench, t: int, current: int, tick: int) -> float:
     """The first tick at which nothing holds `t` back, if nothing happens until then; `INFINITY` if time frees it never.
 
@@ -44,6 +89,16 @@ def free_at(bench: Workbench, t: int, current: int, tick: int) -> float:
         if not is_tied(bench, v, start):
             free = max(free, tick + engine.upper(start) - engine.lower(v))
     return INFINITY if _is_held_back(bench, t, current, tick) else free
+
+
+def keeps_next(bench: Workbench, t: int) -> bool:
+    """Whether what comes next waits for the end of `t`, which was asked for.
+
+    What holds there by default ends when something else begins, also where it was asked for itself.
+    """
+    if bench.key(t) not in bench.asked:
+        return False
+    return not bench.is_met_by(bench.predicate_of(t), bench.defaults.get(bench.object_of(t), NONE))
 
 
 def is_tied(bench: Workbench, end: int, start: int) -> bool:
@@ -110,9 +165,9 @@ def _is_awaited(bench: Workbench, v: int, t: int, current: int, tick: int) -> bo
 
 
 def _ends_with(bench: Workbench, v: int, t: int) -> bool:
-    """Whether `v` ends what was not asked for, when what is planned next there begins, which `t` cannot outwait."""
+    """Whether `v` ends what keeps nothing waiting, when what is planned next there begins, which `t` cannot outwait."""
     ended = bench.stands_for(bench.plan.variable_owner[v])
-    if (after := bench.following(ended)) < 0 or bench.key(ended) in bench.asked:
+    if (after := bench.following(ended)) < 0 or keeps_next(bench, ended):
         return False
     engine, met, begins = bench.engine, bench.met_behind, bench.start(t)
     met.empty(engine.variables)

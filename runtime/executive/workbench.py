@@ -41,6 +41,7 @@ class Workbench(PlanView):
         super().__init__(database, name)
         self.goals: tuple[GoalConfiguration, ...] = ()
         self.goal_numbers: dict[int, int] = {}
+        self.defaults: dict[int, int] = {}  # default predicates, by timeline
         self.leaving = Leaving()
 
     # ---- going back ----

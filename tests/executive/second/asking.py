@@ -10,10 +10,15 @@ def dispatch(reactor: Reactor) -> tuple[list[Request], list[Request]]:
     plan = reactor.plan
     wanted = {one.token for one in reactor.requests if one.token is not None}
     merged = {plan.stands_for(one) for one, state in enumerate(plan.state) if state == "merged"}
+    for request in reactor.requests:
+        here = plan.current.get(request.goal.timeline)
+        if request.token is None and request.is_kept and request.goal.state == "begun" and here in merged:
+            request.token = here  # what runs has found it again
     reactor.requests = [one for one in reactor.requests if not _is_over(reactor, one)]
     lost = [one for one in reactor.requests if one.token is None or _is_void(reactor, one, one.token, merged)]
     for request in lost:
         wanted.discard(request.token)
+    reactor.requests = [one for one in reactor.requests if one not in lost]  # that goes on by itself
     asks = []
     for timeline in reactor.part.external:
         for place, one in enumerate(plan.sequence.get(timeline, [])):
@@ -23,6 +28,7 @@ def dispatch(reactor: Reactor) -> tuple[list[Request], list[Request]]:
             if again is not None:
                 again.token = one
                 lost.remove(again)
+                reactor.requests.append(again)
             elif _held(reactor, timeline, place, one):
                 break
             else:
@@ -30,8 +36,6 @@ def dispatch(reactor: Reactor) -> tuple[list[Request], list[Request]]:
                 asks.append(request)
                 wanted.add(one)
                 reactor.requests.append(request)
-    for one_lost in lost:
-        reactor.requests.remove(one_lost)
     return lost, asks
 
 
@@ -67,9 +71,10 @@ def _is_void(reactor: Reactor, request: Request, token: int, merged: set[int]) -
 def _same(reactor: Reactor, request: Request, token: int) -> bool:
     goal, mine = request.goal, reactor.plan.tokens[token]
     low, high = reactor.plan.window(token)
+    now = reactor.tick + 1  # as time goes on, a request bears later times by itself
     return (
         (goal.timeline, goal.predicate, goal.arguments) == (mine.timeline, mine.predicate, reactor.plan.values(token))
-        and goal.start == (low, high)
+        and (max(goal.start[0], now), goal.start[1]) == (max(low, now), high)
         and request.is_kept
         and not request.refused
     )
@@ -101,6 +106,7 @@ def _held(reactor: Reactor, timeline: str, place: int, number: int) -> bool:
             far = net.distance(token.start, other.start)
             if far <= 0:
                 low = max(low, net.high[other.start] - far)
+    low = max(low, _late_start(reactor, timeline, place))
     if low > reactor.tick + owner.latency + owner.lookahead or owner.lookahead == 0:
         return True
     if low >= reactor.description.final:
@@ -111,7 +117,11 @@ def _held(reactor: Reactor, timeline: str, place: int, number: int) -> bool:
     if place > 0:
         before = plan.sequence[timeline][place - 1]
         refused = any(one.token == before and one.refused for one in reactor.requests)
-        if before in asked and (refused or not _is_tied(reactor, plan.tokens[before].end, token.start)):
+        if (
+            before in asked
+            and _keeps_next(reactor, before)
+            and (refused or not _is_tied(reactor, plan.tokens[before].end, token.start))
+        ):
             return True
     for other in plan.tokens:
         if other.timeline == timeline or other.timeline in reactor.part.internal:
@@ -122,11 +132,65 @@ def _held(reactor: Reactor, timeline: str, place: int, number: int) -> bool:
         if plan.state[here] in ("active", "begun") and not over and follows:
             line = plan.sequence[other.timeline]
             after = line[line.index(here) + 1] if here != line[-1] else None
-            if after is not None and net.distance(plan.tokens[after].start, token.start) == 0:
+            keeps = here in asked and _keeps_next(reactor, here)
+            if after is not None and not keeps and net.distance(plan.tokens[after].start, token.start) == 0:
                 if net.distance(token.start, plan.tokens[after].start) == 0:
                     continue
             return True
     return False
+
+
+def _keeps_next(reactor: Reactor, number: int) -> bool:
+    """Whether what comes next waits for the end of something that was asked for: not of what holds by default."""
+    plan, token = reactor.plan, reactor.plan.tokens[number]
+    default = reactor.description.kind(token.timeline).predicates[0][0]
+    return plan.state[number] != "begun" or token.predicate != default
+
+
+def _wanting(reactor: Reactor, number: int, met: set[int]) -> list[int]:
+    """The tokens from outside of its timeline that want one, or what comes later there and asked for it."""
+    plan = reactor.plan
+    met.add(number)
+    found, line = [], plan.sequence[plan.tokens[number].timeline]
+    for one in plan.tokens:
+        if plan.state[one.number] == "dropped" or plan.stands_for(one.number) != number:
+            continue
+        asking = one.parent if one.parent is None else plan.stands_for(one.parent)
+        if asking is None or plan.tokens[asking].timeline != one.timeline:
+            found.append(one.number)
+        elif line.index(asking) > line.index(number) and asking not in met:
+            found += _wanting(reactor, asking, met)
+    return found
+
+
+def _waits(reactor: Reactor, number: int) -> bool:
+    """Whether it follows from an own token that begins as late as it may."""
+    plan, here = reactor.plan, reactor.plan.tokens[number].parent
+    while here is not None:
+        token = plan.tokens[plan.stands_for(here)]
+        if plan.goals_of[token.number] or plan.state[token.number] == "begun":
+            return False
+        if token.timeline in reactor.part.internal and token.timeline not in reactor.part.early:
+            return True
+        here = token.parent
+    return False
+
+
+def _late_start(reactor: Reactor, timeline: str, place: int) -> int:
+    """The latest start of what only follows what holds there, such that nothing wanted behind it is delayed."""
+    plan, line = reactor.plan, reactor.plan.sequence[timeline]
+    here = line[place]
+    for there in line[place:]:
+        wanting = _wanting(reactor, there, set())
+        if not wanting:
+            continue
+        if there == here:
+            return -FAR
+        trial = plan.net.copy()
+        if not _waits(reactor, wanting[0]):
+            trial.most(plan.tokens[there].start, trial.low[plan.tokens[there].start])
+        return trial.high[plan.tokens[here].start]
+    return plan.window(here)[1]
 
 
 def _is_tied(reactor: Reactor, end: int, start: int) -> bool:

@@ -8,7 +8,7 @@ from argparse import ArgumentParser
 from collections import Counter
 
 from tests.executive.second.comparing import differences
-from tests.executive.second.generator import bounded_mission, random_mission
+from tests.executive.second.generator import bounded_mission, following_mission, random_mission
 from tests.executive.second.searching import TooHardError
 
 
@@ -19,8 +19,9 @@ def main() -> int:
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--choices", action="store_true", help="show differences, too, where a planner had a choice")
     parser.add_argument("--bounds", action="store_true", help="of goals that say how long they may take")
+    parser.add_argument("--turns", action="store_true", help="of a user whose model says what follows")
     given = parser.parse_args()
-    make = bounded_mission if given.bounds else random_mission
+    make = bounded_mission if given.bounds else following_mission if given.turns else random_mission
     tally: Counter[str] = Counter()
     for seed in range(given.first, given.first + given.count):
         try:

@@ -61,6 +61,27 @@ def bounded_mission(seed: int) -> Description:
     return replace(found, name=f"bounded_{seed}", wishes=tuple(wishes))
 
 
+def following_mission(seed: int) -> Description:
+    """The mission of a seed, in which a planner uses a valve of which its model says what follows."""
+    found, dice = random_mission(seed), default_rng((seed, 2))
+    length = int(dice.choice((0, 0, 4, 9)))
+    kind = Kind("valve", (("Shut", ()), ("Open", ())))
+    lasting = (Bound("duration", 1, length),) if length else ()
+    own = Part("tap", 0, int(dice.choice((1, 1, 5))), ("valve",), rules=(Rule("valve", "Open", lasting),))
+    relation: Relation = "contained_by" if dice.integers(2) else "starts"
+    parts = []
+    for part in found.parts:
+        if part.name == "plan0":
+            asked = Child(relation, "valve", "Open" if dice.integers(3) else "Shut", "o")
+            one, other = ("Open", "Shut") if dice.integers(2) else ("Shut", "Open")
+            turn = Rule("valve", one, (Child("meets", "valve", other, "t"),))
+            rules = [replace(rule, body=(*rule.body, asked)) if rule.predicate == "Do" else rule for rule in part.rules]
+            part = replace(part, external=tuple(sorted((*part.external, "valve"))), rules=(*rules, turn))
+        parts.append(part)
+    kinds = (*found.kinds, kind)
+    return replace(found, name=f"following_{seed}", kinds=kinds, parts=(own, *parts))
+
+
 def random_mission(seed: int) -> Description:
     """The mission of a seed."""
     mission = Mission(default_rng(seed))
