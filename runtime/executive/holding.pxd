@@ -33,7 +33,7 @@ cpdef double free_at(Workbench bench, long long t, long long current, long long 
 
 cpdef bint keeps_next(Workbench bench, long long t) except -1
 
-@cython.locals(engine=Engine, mark="long long", may_wait=bint)
+@cython.locals(engine=Engine)
 cpdef bint is_tied(Workbench bench, long long end, long long start) except -1
 
 @cython.locals(e="long long", ends=list, engine=Engine, first="long long", i="long long", met=SparseSet, v="long long")
@@ -49,3 +49,6 @@ cpdef bint _is_awaited(Workbench bench, long long v, long long t, long long curr
     after="long long", begins="long long", e="long long", ended="long long", engine=Engine, i="long long", met=SparseSet
 )
 cpdef bint _ends_with(Workbench bench, long long v, long long t) except -1
+
+@cython.locals(holds=bint, mark="long long")
+cpdef bint _may_follow(Workbench bench, long long v, long long w) except -1

@@ -106,10 +106,7 @@ def is_tied(bench: Workbench, end: int, start: int) -> bool:
     engine = bench.engine
     if engine.lower(start) != engine.lower(end) or engine.upper(start) != engine.upper(end):
         return False
-    mark = bench.mark()
-    may_wait = engine.add_edge(start, end, -1, SPAN_EXECUTIVE, NONE)
-    bench.release(mark)
-    return not may_wait
+    return not _may_follow(bench, start, end)
 
 
 def _awaited_ends(bench: Workbench, t: int, current: int, tick: int) -> list[int]:
@@ -165,7 +162,10 @@ def _is_awaited(bench: Workbench, v: int, t: int, current: int, tick: int) -> bo
 
 
 def _ends_with(bench: Workbench, v: int, t: int) -> bool:
-    """Whether `v` ends what keeps nothing waiting, when what is planned next there begins, which `t` cannot outwait."""
+    """Whether `v` ends what keeps nothing waiting, when what is planned next there begins, at the very tick of `t`.
+
+    What may begin before that is not helped by it: the world has to end what holds there.
+    """
     ended = bench.stands_for(bench.plan.variable_owner[v])
     if (after := bench.following(ended)) < 0 or keeps_next(bench, ended):
         return False
@@ -180,4 +180,12 @@ def _ends_with(bench: Workbench, v: int, t: int) -> bool:
                 met.add(engine.edge_target[e])
             e = engine.out_next[e]
         i += 1
-    return met.has(begins)
+    return met.has(begins) and not _may_follow(bench, bench.start(after), begins)
+
+
+def _may_follow(bench: Workbench, v: int, w: int) -> bool:
+    """Whether the plan lets `v` come after `w`."""
+    mark = bench.mark()
+    holds = bench.engine.add_edge(v, w, -1, SPAN_EXECUTIVE, NONE)
+    bench.release(mark)
+    return bool(holds)
