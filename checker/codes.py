@@ -49,6 +49,7 @@ NO_THREATS = Code(
 )
 NO_CLASS = Code("NDDL736", Severity.ERROR, "name", "{where} has no class `{name}`")
 NO_LOG = Code("NDDL737", Severity.ERROR, "rule", "`{path}` cannot be played: {problem}")
+NO_MATCH = Code("NDDL738", Severity.WARNING, "name", "no model that is planned with this file has a {what} `{name}`")
 NO_REQUESTS = Code(
     "NDDL734", Severity.WARNING, "rule", "`{timeline}` takes no requests: its owner `{owner}` has a lookahead of 0"
 )

@@ -13,6 +13,7 @@ from checker.codes import (
     NO_FILE,
     NO_GOALS,
     NO_LOG,
+    NO_MATCH,
     NO_OWNER,
     NO_PREDICATE,
     NO_RANGE,
@@ -307,6 +308,15 @@ MISSION_PAGES = (
         "Nothing is guessed: what is sampled decides what a batch shows.",
         "[parameters.errorRateX]     # of <Min>low</Min>\nrange = []\n",
         "[parameters.errorRateX]     # of <Min>-0.7</Min> and <Max>0.7</Max>\nrange = [-0.7, 0.7]\n",
+        "toml",
+    ),
+    RulePage(
+        NO_MATCH,
+        "A filter or a handler of a solver's file is to match a class, a predicate or a variable that no model has "
+        "which is planned with this file.",
+        "It matches nothing, so that the solver takes its default.",
+        '[[manager]]\ncomponent = "OpenConditionManager"\n[[manager.handler]]\nclass = "Naw"\npriority = 10\n',
+        '[[manager]]\ncomponent = "OpenConditionManager"\n[[manager.handler]]\nclass = "Nav"\npriority = 10\n',
         "toml",
     ),
     RulePage(

@@ -15,6 +15,7 @@ from checker.names import relative_name
 from checker.planner_fit import unordered_resources
 from checker.property_fit import property_misfits
 from checker.role_fit import find_role_misfits
+from checker.solver_fit import solver_misfits
 from compiler.lower import compile_model
 from compiler.program import ParameterSite, Program
 from nddl_lang.analysis import Analysis, analyse
@@ -116,6 +117,7 @@ def load_models(mission: Mission, open_text: OpenText = read_text, *, is_linted:
     misfits += find_role_misfits(mission, programs, library.constraints)
     settings = {name: reading for name, (reading, _) in zip(solvers, readings, strict=True)}
     misfits += unordered_resources(mission, programs, settings)
+    misfits += solver_misfits(mission, programs, zip(solvers, configured, strict=True))
     misfits += property_misfits(mission, programs)
     if mission.figures is not None:
         misfits += figure_misfits(mission.figures, mission.text, agent, programs)

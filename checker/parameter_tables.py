@@ -83,12 +83,17 @@ def _ill_distribution(table: Table, name: str, values: tuple[float, ...], expres
     """What the keys of a distribution lack, or have in vain."""
     reasons: list[str] = []
     distribution = DISTRIBUTIONS[name]
-    if "values" in distribution.needs and table.values.get("values", []) == []:
+    if (
+        "values" in distribution.needs
+        and table.values.get("values", []) == []
+        and table.has("values") == table.means("values")
+    ):
         reasons.append(f"a {name} distribution needs `values`, a list of numbers")
     for key in ("value", "expression"):
-        if key in distribution.needs and not table.has(key):
+        if key in distribution.needs and not table.means(key):
             reasons.append(f"a {name} distribution needs `{key}`")
-    if table.has("mean") != table.has("sigma") and name == "normal" and not table.has("range"):
+    are_apart = table.has("mean") != table.has("sigma") and table.means("mean") != table.means("sigma")
+    if are_apart and name == "normal" and not table.has("range"):
         reasons.append("a normal distribution without a `range` needs both `mean` and `sigma`")
     for key in _OWN_KEYS:
         if table.has(key) and key not in distribution.keys:

@@ -3,15 +3,16 @@
 from collections.abc import Sequence
 from itertools import permutations
 
-from nddl_lang.semantics.codes import CLASS_IS_CLOSED, NO_BASE_CONSTRUCTOR, NO_CONSTRUCTOR
+from nddl_lang.semantics.codes import CLASS_IS_CLOSED, NO_BASE_CONSTRUCTOR, NO_CONSTRUCTOR, UNKNOWN_NAME
 from nddl_lang.semantics.expressions import type_of
+from nddl_lang.semantics.names import find
 from nddl_lang.semantics.schema import Chosen, Class, Constructor, Kind, Type
 from nddl_lang.semantics.scope import BlockKind, Context, Deferred, Scope
 from nddl_lang.semantics.symbol_table import SymbolTable
 from nddl_lang.semantics.typenames import find_defined_class
 from nddl_lang.semantics.types import fits, object_type
 from nddl_lang.semantics.values import check_restriction
-from nddl_lang.syntax.nodes import Assignment, Expr, NewExpr, StringLiteral
+from nddl_lang.syntax.nodes import Assignment, Expr, NewExpr, PathExpr, StringLiteral
 from nddl_lang.text.diagnostic import Edit, Fix, Note
 from nddl_lang.text.source import Span
 
@@ -20,6 +21,7 @@ _MOST_REORDERED = 5  # arguments whose orders are tried
 
 def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | None:
     """Check `new C(...)` and choose its constructor; the class, None after a complaint."""
+    _tell_unquoted(context, scope, new)
     types = argument_types(context, scope, new.arguments)
     context.tables.types[new] = object_type(new.class_name.name)
     known = context.symbols.find_class(new.class_name.name)
@@ -40,6 +42,22 @@ def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | No
         for name in _made_with(context.symbols, owner.name):
             context.symbols.put_object(name)
     return owner if is_sound else None
+
+
+def _tell_unquoted(context: Context, scope: Scope, new: NewExpr) -> None:
+    """Complain of an unknown name where each constructor takes a text."""
+    owner = context.symbols.find_class(new.class_name.name)
+    fitting = [] if owner is None else [one for one in owner.constructors if len(one.parameters) == len(new.arguments)]
+    for index, argument in enumerate(new.arguments if fitting else ()):
+        if not isinstance(argument, PathExpr) or len(argument.parts) > 1:
+            continue
+        name = argument.parts[0].name
+        is_text = all(one.parameters[index].type.kind is Kind.STRING for one in fitting)
+        if is_text and name not in context.reported and find(context, scope, name) is None:
+            context.reported.add(name)
+            fix = Fix(f'write `"{name}"`', (Edit(argument.span, f'"{name}"'),), safe=False)
+            help_ = f'a text stands in quotes: `"{name}"`'
+            context.complain(UNKNOWN_NAME.at(argument.span, name=name, help=help_, fixes=(fix,)))
 
 
 def check_deferred(context: Context, deferred: Deferred) -> None:

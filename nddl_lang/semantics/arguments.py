@@ -9,7 +9,7 @@ from nddl_lang.semantics.scope import Context
 from nddl_lang.semantics.signature import Argument, ArgumentKind, Signature
 from nddl_lang.semantics.types import COUNTABLE, always_differ, comparable, phrase
 from nddl_lang.syntax.nodes import Expr, PathExpr
-from nddl_lang.text.diagnostic import Note
+from nddl_lang.text.diagnostic import Fix, Note
 from nddl_lang.text.source import Span
 
 _RESOURCE_CLASS = "CBReusable"
@@ -59,11 +59,25 @@ def check_types(
 
 
 def complain_argument(
-    context: Context, name: str, argument: Argument, expression: Expr, found: str, meant: Iterable[str] = ()
+    context: Context,
+    name: str,
+    argument: Argument,
+    expression: Expr,
+    found: str,
+    meant: Iterable[str] = (),
+    fixes: tuple[Fix, ...] = (),
 ) -> None:
     """Say that an argument is of the wrong kind; one of the names in `meant` may be what was meant."""
     text = expression.span.text
-    complaint = WRONG_ARGUMENT.at(expression.span, name=name, expected=argument.kind.value, text=text, found=found)
+    complaint = WRONG_ARGUMENT.at(
+        expression.span,
+        name=name,
+        expected=argument.kind.value,
+        text=text,
+        found=found,
+        help=fixes[0].title if fixes else None,
+        fixes=fixes,
+    )
     if isinstance(expression, PathExpr) and len(expression.parts) == 1:
         complaint = suggest_name(complaint, expression.parts[0], meant)
     context.complain(complaint)

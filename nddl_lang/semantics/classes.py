@@ -13,7 +13,7 @@ from nddl_lang.semantics.natives import ROOT_CLASS
 from nddl_lang.semantics.predicates import check_predicate
 from nddl_lang.semantics.schema import Class, Predicate, Variable
 from nddl_lang.semantics.scope import BlockKind, Context, Scope, names_in
-from nddl_lang.semantics.typenames import find_defined_class, find_type, known_type
+from nddl_lang.semantics.typenames import find_declared_type, find_defined_class, known_type
 from nddl_lang.semantics.types import BASIC_TYPES
 from nddl_lang.semantics.values import check_value, constant
 from nddl_lang.syntax.nodes import (
@@ -124,7 +124,7 @@ def _check_members(context: Context, owner: Class, node: ClassDecl) -> None:
 
 
 def _check_variables(context: Context, owner: Class, node: VariableDecl) -> None:
-    type_ = find_type(context, node.type_name)
+    type_ = find_declared_type(context, node.type_name, [one.name for one in node.declarators])
     for declarator in node.declarators:
         name = declarator.name.name
         first = context.symbols.find_member(owner.name, name)

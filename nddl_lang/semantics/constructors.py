@@ -36,7 +36,7 @@ from nddl_lang.semantics.schema import (
     Variable,
 )
 from nddl_lang.semantics.scope import BlockKind, Context, Scope
-from nddl_lang.semantics.typenames import find_type
+from nddl_lang.semantics.typenames import find_declared_type
 from nddl_lang.semantics.values import check_value, constant
 from nddl_lang.syntax.nodes import Assignment, BrokenStatement, ConstructorDecl, NewExpr, PathExpr, SuperCall
 from nddl_lang.text.diagnostic import Edit, Fix, Note
@@ -75,7 +75,7 @@ def _declare_formals(context: Context, scope: Scope, node: ConstructorDecl) -> l
     parameters: list[Variable] = []
     is_complete = True
     for formal in node.parameters:
-        type_ = find_type(context, formal.type_name)
+        type_ = find_declared_type(context, formal.type_name, [formal.name])
         name = formal.name.name
         if (first := scope.variables.get(name)) is not None:
             notes = (Note("the first one is here", first.variable.span),)

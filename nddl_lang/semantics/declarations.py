@@ -6,7 +6,7 @@ from nddl_lang.semantics.classes import complain_taken
 from nddl_lang.semantics.codes import CLASS_TYPEDEF, DUPLICATE_NAME, DUPLICATE_VALUE, NARROWED_TYPEDEF
 from nddl_lang.semantics.schema import Domain, Enumeration, EnumValue, Kind, Type, Typedef, Values, Variable
 from nddl_lang.semantics.scope import BlockKind, Context, Scope
-from nddl_lang.semantics.typenames import find_type
+from nddl_lang.semantics.typenames import find_declared_type, find_type
 from nddl_lang.semantics.types import TOKEN_STATES
 from nddl_lang.semantics.values import check_value, constant
 from nddl_lang.syntax.nodes import EnumDecl, Identifier, NewExpr, TypedefDecl, VariableDecl
@@ -77,7 +77,7 @@ def check_typedef(context: Context, node: TypedefDecl) -> None:
 def check_globals(context: Context, node: VariableDecl) -> None:
     """Declare global variables."""
     scope = Scope(BlockKind.SCRIPT)
-    type_ = find_type(context, node.type_name)
+    type_ = find_declared_type(context, node.type_name, [one.name for one in node.declarators])
     for declarator in node.declarators:
         name = declarator.name.name
         first = context.symbols.find_global(name) or context.symbols.find_goal(name)

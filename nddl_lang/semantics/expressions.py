@@ -1,5 +1,7 @@
 """Give every expression its type; tell the user where operands do not go together."""
 
+import re
+
 from nddl_lang.semantics.arguments import check_count, check_types
 from nddl_lang.semantics.codes import (
     ALWAYS_DIFFERENT,
@@ -19,6 +21,7 @@ from nddl_lang.semantics.constraints import Origin
 from nddl_lang.semantics.functions import OTHER_FUNCTIONS, FunctionRow, ResultKind
 from nddl_lang.semantics.literals import number
 from nddl_lang.semantics.meant import (
+    comparison_meant,
     is_token_in,
     number_meant,
     parameter_meant,
@@ -70,6 +73,7 @@ from nddl_lang.text.source import Span
 
 NO_ENVIRONMENT = "give the value from outside: compare with a number, or with a global variable that the script assigns"
 
+_CALLED = re.compile(r"`(\w+)\(")
 _ORDERS = frozenset({"<", "<=", ">", ">="})
 _EQUALITIES = frozenset({"==", "!="})
 _LOGIC = frozenset({"&&", "||"})
@@ -161,7 +165,10 @@ def _binary_type(context: Context, binary: BinaryExpr, left: Type | None, right:
     if op in _LOGIC:
         for side, type_ in ((binary.left, left), (binary.right, right)):
             if type_ is not None and type_.kind is not Kind.BOOL:
-                context.complain(NOT_A_CONDITION.at(side.span, text=side.span.text, found=phrase(type_)))
+                help_, fixes = comparison_meant(binary, side)
+                text = side.span.text
+                complaint = NOT_A_CONDITION.at(side.span, text=text, found=phrase(type_), help=help_, fixes=fixes)
+                context.complain(complaint)
         return BOOL
     return _arithmetic_type(context, binary, left, right)
 
@@ -335,6 +342,9 @@ def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
         meant = meant or OTHER_FUNCTIONS.get(name)
         if meant is None and name in context.callables.constraints:
             meant = f"`{name}` is a constraint: write it as a statement, `{name}(...);`"
+        named = _CALLED.findall(meant or "")
+        if len(named) == 1 and named[0] in context.callables.functions:
+            fixes = (Fix(f"write `{named[0]}`", (Edit(call.function.span, named[0]),), safe=False),)
         complaint = UNKNOWN_FUNCTION.at(call.function.span, help=meant, fixes=fixes, name=name)
         context.complain(suggest_name(complaint, call.function, context.callables.functions))
         return None

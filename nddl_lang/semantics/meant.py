@@ -10,6 +10,7 @@ from nddl_lang.syntax.nodes import BinaryExpr, CallExpr, Expr, StringLiteral, Un
 from nddl_lang.text.diagnostic import Edit, Fix
 from nddl_lang.text.nearest import nearest
 
+_COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
 _QUOTED = {Kind.INT: re.compile(r"[-+]?\d+"), Kind.FLOAT: re.compile(r"[-+]?\d+(?:\.\d+)?")}
 
 
@@ -22,6 +23,18 @@ def relation_meant(context: Context, binary: BinaryExpr) -> tuple[str | None, tu
     written = f"{binary.left.span.text} {relation} {binary.right.span.text}"
     fix = Fix(f"write `{written}`", (Edit(binary.span, written),), safe=False)
     return f"one token after the other is a relation: `{written}`", (fix,)
+
+
+def comparison_meant(binary: BinaryExpr, side: Expr) -> tuple[str | None, tuple[Fix, ...]]:
+    """How `a == 1 || 2` is written, where `side` is the 2; nothing where the other side compares nothing."""
+    other = binary.left
+    while isinstance(other, BinaryExpr) and other.op == binary.op:
+        other = other.right
+    if side is binary.left or not isinstance(other, BinaryExpr) or other.op not in _COMPARISONS:
+        return None, ()
+    written = f"{other.left.span.text} {other.op} {side.span.text}"
+    fix = Fix(f"write `{written}`", (Edit(side.span, written),), safe=False)
+    return f"each comparison has a left side: `{written}`", (fix,)
 
 
 def parameter_meant(context: Context, token: Expr, other: Type) -> tuple[Fix, ...]:

@@ -222,6 +222,13 @@ def _find_token_variable(
                 [*names, *(each for each in builtin_names(predicate.is_event) if each != but)],
                 last=other_name(name.name, predicate) or only,
             )
+            if complaint.help is None and 0 < len(names) <= MOST_NAMED:
+                named = f"its {_listed('parameter', names)}"
+                members = _members(context, predicate.class_name)
+                is_short = 0 < len(members) <= MOST_NAMED
+                complaint = _with(
+                    complaint, f"{named}; `object.{'`, `object.'.join(members)}`" if is_short else named, ()
+                )
         context.complain(complaint)
     return None
 
@@ -247,9 +254,14 @@ def complain_unknown_member(context: Context, class_name: str, name: Identifier,
     members = [each for each in _members(context, class_name) if each != but]
     complaint = suggest_name(complaint, name, members)
     if complaint.help is None and 0 < len(members) <= MOST_NAMED:
-        named = ", ".join(f"`{member}`" for member in members)
-        complaint = _with(complaint, f"its members are {named}" if len(members) > 1 else f"its member is {named}", ())
+        complaint = _with(complaint, f"its {_listed('member', members)}", ())
     context.complain(complaint)
+
+
+def _listed(what: str, names: list[str]) -> str:
+    """`parameters are `a`, `b``, or `member is `c``."""
+    named = ", ".join(f"`{name}`" for name in names)
+    return f"{what}s are {named}" if len(names) > 1 else f"{what} is {named}"
 
 
 def _members(context: Context, class_name: str) -> list[str]:

@@ -13,7 +13,7 @@ from nddl_lang.semantics.names import find, resolve
 from nddl_lang.semantics.natives import builtin_type
 from nddl_lang.semantics.schema import Class, ClassReference, Label, Predicate, TokenVariableReference, Variable
 from nddl_lang.semantics.scope import BlockKind, Context, Scope
-from nddl_lang.semantics.typenames import find_type
+from nddl_lang.semantics.typenames import find_declared_type
 from nddl_lang.semantics.values import check_value
 from nddl_lang.syntax.nodes import (
     Assignment,
@@ -71,7 +71,7 @@ def _declare_parameters(
     for statement in node.body:
         if not isinstance(statement, VariableDecl):
             continue
-        type_ = find_type(context, statement.type_name)
+        type_ = find_declared_type(context, statement.type_name, [one.name for one in statement.declarators])
         for declarator in statement.declarators:
             name = declarator.name.name
             if builtin_type(name, probe) is not None:

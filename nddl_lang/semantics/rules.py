@@ -10,7 +10,7 @@ from nddl_lang.semantics.names import resolve_value
 from nddl_lang.semantics.schema import Kind, LocalReference, Rule, Variable
 from nddl_lang.semantics.scope import Context, Scope, rule_scope
 from nddl_lang.semantics.tokens import check_relation, find_predicate
-from nddl_lang.semantics.typenames import find_class, find_type
+from nddl_lang.semantics.typenames import find_class, find_declared_type
 from nddl_lang.semantics.types import phrase, plain, reference_type
 from nddl_lang.semantics.values import check_value
 from nddl_lang.syntax.nodes import (
@@ -71,7 +71,7 @@ def _check_statement(context: Context, scope: Scope, statement: RuleStatement) -
 
 
 def _check_locals(context: Context, scope: Scope, node: VariableDecl) -> None:
-    type_ = find_type(context, node.type_name)
+    type_ = find_declared_type(context, node.type_name, [one.name for one in node.declarators])
     for declarator in node.declarators:
         name = declarator.name.name
         if isinstance(declarator.initialiser, NewExpr):

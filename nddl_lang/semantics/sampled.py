@@ -8,7 +8,8 @@ from nddl_lang.semantics.names import find, resolve
 from nddl_lang.semantics.schema import ClassReference, EnumValue, GlobalReference, Type
 from nddl_lang.semantics.scope import Context, Scope
 from nddl_lang.semantics.types import FLOAT, NUMBERS, phrase, plain, reference_type
-from nddl_lang.syntax.nodes import Expr, PathExpr
+from nddl_lang.syntax.nodes import Expr, PathExpr, StringLiteral
+from nddl_lang.text.diagnostic import Edit, Fix
 
 
 def sampled_parameter(context: Context, scope: Scope, owner: object, expression: Expr, row: FunctionRow) -> Type:
@@ -29,10 +30,18 @@ def sampled_parameter(context: Context, scope: Scope, owner: object, expression:
             context.tables.sampled[owner] = reference
             return FLOAT if isinstance(reference, EnumValue) else plain(found)
         complain_argument(context, row.name, argument, expression, phrase(found))
+    elif isinstance(expression, StringLiteral) and _can_be_drawn(context, expression.value):
+        fix = Fix(f"write `{expression.value}`", (Edit(expression.span, expression.value),), safe=False)
+        complain_argument(context, row.name, argument, expression, "a text in quotes", fixes=(fix,))
     else:
         what = "a class" if isinstance(reference, ClassReference) else "neither"
         complain_argument(context, row.name, argument, expression, what, _global_numbers(context))
     return FLOAT
+
+
+def _can_be_drawn(context: Context, name: str) -> bool:
+    """Whether a global number or a value of an enum has this name."""
+    return name in _global_numbers(context) or context.symbols.find_value(name) is not None
 
 
 def _global_numbers(context: Context) -> Iterator[str]:

@@ -190,8 +190,13 @@ class SymbolTable:
             current = found.base
 
     def is_subclass(self, name: str, ancestor: str) -> bool:
-        """Whether class `name` is `ancestor` or extends it."""
-        return any(owner.name == ancestor for owner in self.ancestry(name))
+        """Whether class `name` is `ancestor` or extends it, as far as is known: one that is partial may do so."""
+        return any(owner.name == ancestor for owner in self.ancestry(name)) or self._lacks_base(name)
+
+    def _lacks_base(self, name: str) -> bool:
+        """Whether what a class extends was not understood."""
+        bases = (owner.node.base for owner in self.ancestry(name) if owner.node is not None)
+        return any(base is not None and self.find_class(base.name) is None for base in bases)
 
     def find_member(self, class_name: str, member: str) -> Variable | None:
         """Member `member` of a class, inherited ones included."""

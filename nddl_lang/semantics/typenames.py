@@ -1,6 +1,6 @@
 """Tie the names of types and classes to what they name."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from nddl_lang.semantics.codes import UNDEFINED_CLASS, UNKNOWN_CLASS, UNKNOWN_TYPE
@@ -9,7 +9,7 @@ from nddl_lang.semantics.schema import Class, Type
 from nddl_lang.semantics.scope import Context
 from nddl_lang.semantics.types import BASIC_TYPES, enum_type, object_type
 from nddl_lang.syntax.nodes import Identifier
-from nddl_lang.text.diagnostic import Code, Diagnostic, Note
+from nddl_lang.text.diagnostic import Code, Diagnostic, Edit, Fix, Note
 from nddl_lang.text.nearest import nearest
 
 _TYPE_TABLES = ("typedef", "enum", "class")
@@ -45,6 +45,20 @@ def find_type(context: Context, name: Identifier) -> Type | None:
         return None
     context.tables.type_names[name] = type_
     return type_
+
+
+def find_declared_type(context: Context, name: Identifier, declared: Sequence[Identifier]) -> Type | None:
+    """The type of what is declared; of `place Place` it is said that the type stands first."""
+    is_turned = len(declared) == 1 and not (name.name[0].isupper() and declared[0].name[0].islower())
+    if is_turned and known_type(context, name.name) is None and known_type(context, declared[0].name) is not None:
+        if not context.symbols.is_doubtful(name.name):
+            text = f"{declared[0].name} {name.name}"
+            fix = Fix(f"write `{text}`", (Edit(name.span.to(declared[0].span), text),), safe=False)
+            help_ = f"the type stands first: `{text}`"
+            context.complain(UNKNOWN_TYPE.at(name.span, name=name.name, help=help_, fixes=(fix,)))
+            context.symbols.put_faulty(name.name)
+        return None
+    return find_type(context, name)
 
 
 def known_type(context: Context, name: str) -> Type | None:

@@ -23,6 +23,9 @@ _OPERATORS = {
     "over": "write `/`",
 }
 _OF_EXPRESSIONS = frozenset((".", "<", "<=", ">", ">=", "!=", "+", "*", "/"))
+_OPERANDS = frozenset(("IDENT", "this", "INT", "FLOAT", "STRING", "BOOL", "(", "-", "!", "SET", "["))
+_ENDS_CONDITION = frozenset((")", ";", "&&", "||"))
+_CONTRARIES = {"==": "!=", "!=": "==", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
 _LOOPS = ("for", "repeat", "until", "while")
 
 
@@ -50,7 +53,9 @@ def advise(kinds: list[str], texts: list[str], first: int, index: int) -> str | 
     for at in (index, index - 1):
         if at >= first and kinds[at] == "IDENT" and (advice := advise_operator(texts[at])) is not None:
             is_between = texts[at] == "not" and at > first and kinds[at - 1] in ("IDENT", ")")
-            return "write `!=`" if is_between else advice
+            if is_between:
+                return "write `!=`"
+            return None if texts[at] == "not" and negated(kinds, texts, at) is not None else advice
     match kinds[first]:
         case "GOAL" if index == first + 1:
             return f"write `{texts[first]}(object.predicate name);`"
@@ -73,6 +78,22 @@ def advise(kinds: list[str], texts: list[str], first: int, index: int) -> str | 
         case "IDENT" if advice := _advise_after_name(kinds, texts, first, index):
             return advice
     return _advise_anywhere(kinds, texts, first, index)
+
+
+def negated(kinds: list[str], texts: list[str], at: int) -> tuple[int, str] | None:
+    """The last lexeme of what the `not` at the lexeme `at` stands before, and how the contrary is written."""
+    last = at + 1
+    if kinds[last] != "IDENT" or kinds[at - 1 : at] not in (["("], ["&&"], ["||"], ["{"], [";"], []):
+        return None
+    while kinds[last + 1 : last + 3] == [".", "IDENT"]:
+        last += 2
+    left = "".join(texts[at + 1 : last + 1])
+    if kinds[last + 1] in _ENDS_CONDITION:
+        return last, f"{left} == false"
+    contrary = _CONTRARIES.get(kinds[last + 1])
+    if contrary is None or kinds[last + 2] not in _OPERANDS or kinds[last + 3] not in _ENDS_CONDITION:
+        return None
+    return last + 2, f"{left} {contrary} {texts[last + 2]}"
 
 
 def _advise_after_name(kinds: list[str], texts: list[str], first: int, index: int) -> str | None:
@@ -119,6 +140,8 @@ def _advise_anywhere(kinds: list[str], texts: list[str], first: int, index: int)
         return "write `==` for a constraint, or `=` to give a variable its value"
     if kind == "," and before == "INT" and kinds[index + 1] == "INT":
         return f"numbers have a decimal point: `{texts[index - 1]}.{texts[index + 1]}`"
+    if kind == "IDENT" and before in ("INT", "FLOAT"):
+        return f"a number has no unit; a product is written `{texts[index - 1]} * {texts[index]}`"
     if kind == "}" and before == "SET":
         return "a set needs at least one value"
     if kind in ("]", ";") and "[" in kinds[max(first, index - 2) : index]:
@@ -128,6 +151,11 @@ def _advise_anywhere(kinds: list[str], texts: list[str], first: int, index: int)
     if kind == "else":
         return "an `else` follows the statement or block of an `if`"
     return None
+
+
+def is_operator(b: Builder, at: int) -> bool:
+    """Whether the lexeme `at` is a word that is an operator elsewhere, with an operand behind it."""
+    return b.kinds[at] == "IDENT" and b.kinds[at + 1] in _OPERANDS and advise_operator(b.texts[at]) is not None
 
 
 def advise_operator(text: str) -> str | None:

@@ -217,6 +217,26 @@ def leave_out(piece: Piece, brackets: Brackets, start: int, base: int) -> None:
     piece.report(STRAY_BRACE, at, at + 1, text="}", fixes=(fix,))
 
 
+def watch_opening(piece: Piece, base: int, doubled: int) -> int:
+    """Where the `{` that comes next is the second of two, its place, else `doubled`.
+
+    A `;` between the head of an `if`, `else` or `foreach` and its block is left out.
+    """
+    kinds = piece.kinds
+    if kinds[-1:] == ["{"]:
+        return len(kinds)
+    if kinds[-1:] == [";"] and len(kinds) > 1:
+        at = len(kinds) - 1
+        head = "else" if kinds[at - 1] == "else" else kinds[_condition_before(kinds, at) - 1]
+        if head in _BRANCHES:
+            piece.mends.append((at, ""))
+            place = piece.starts[at] - base
+            fix = Fix("remove `;`", (Edit(piece.span(place, place + 1), ""),))
+            help_ = f"the block belongs to the `{head}`"
+            piece.report(SUPERFLUOUS, place, place + 1, text=";", help=help_, fixes=(fix,))
+    return doubled
+
+
 def leave_out_doubled(piece: Piece, doubled: int, base: int) -> None:
     """Leave out the second of two `{` when one of them is never closed."""
     piece.mends.append((doubled, ""))

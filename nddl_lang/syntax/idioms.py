@@ -127,6 +127,21 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
         r"a name holds letters, digits and `_` only: `\1 \2_\3 \4;`",
         r"\1 \2_\3 \4;",
     ),
+    (
+        rf"(.*?)({_PATH}) ([<>=!]=|[<>]) ({_VALUE}) (&&|\|\|) ([<>=!]=|[<>]) ({_VALUE})\b(.*)",
+        r"each comparison has a left side: `\2 \3 \4 \5 \2 \6 \7`",
+        r"\1 \2 \3 \4 \5 \2 \6 \7 \8",
+    ),
+    (
+        rf"({_TYPE}|{_N}) (\[ .* \]|\{{ .* \}}) ({_N}) ;",
+        r"a domain stands after `=`: `\1 \3 = \2;`",
+        r"\1 \3 = \2;",
+    ),
+    (
+        rf"({_N} |)({_RELATION}) \( ({_NUMBER}) ,? ?({_NUMBER}) \) (\(.*) ;",
+        r"the bounds of a distance stand in brackets: `\1\2 [\3 \4] \5;`",
+        r"\1\2 [\3 \4] \5;",
+    ),
     (rf"enum {_N} \{{? ?.*=.*", "an enum lists names, without numbers: `enum E { a, b }`", ""),
     (
         rf"typedef ({_N}) ({_TYPE}) (\[.*\]|\{{.*\}}) ;|typedef ({_TYPE}) ({_N}) (\[.*\]|\{{.*\}}) ;",

@@ -21,18 +21,21 @@ from nddl_lang.text.nearest import nearest
 # Infinity of EUROPA on a machine with 64 bits.
 INFINITY = 2**52 - 1
 
-_MEASURED = re.compile(r"([+-]?(?:0|[1-9][0-9]{0,8})(?:\.[0-9]{1,9})?)[A-Za-z]{1,9}")
+_MEASURED = re.compile(r"([+-]?(?:0|[1-9][0-9]{0,8})(?:\.[0-9]{1,9})?)[A-Za-z]\w{0,30}")
 _INTEGER = re.compile(r"[+-]?(?:0|[1-9][0-9]*)[lL]?")
 _REAL = re.compile(
     r"[+-]?[0-9]+(?:\.[0-9]*(?:[eE][+-]?[0-9]+)?[fFdD]?|[eE][+-]?[0-9]+[fFdD]?|[fFdD])"
     r"|\.[0-9]+(?:[eE][+-]?[0-9]+)?[fFdD]?"
 )
+_NUMBER = re.compile(r"[+-]?(?:0|[1-9][0-9]{0,8})(?:\.[0-9]{1,9})?")
+_LETTERS_LIKE_DIGITS = str.maketrans("OolI", "0011")
 _BOUNDS = re.compile(r"([+-]?[0-9]+(?:\.[0-9]+)?)\.{2,3}([+-]?[0-9]+(?:\.[0-9]+)?)")
 _HEXADECIMAL = re.compile(r"([+-]?)0[xX]([0-9a-fA-F]{1,16})[lL]?")
 _OCTAL = re.compile(r"([+-]?)0+([0-7]{1,22})[lL]?")
 _LEADING_DIGITS = re.compile(r"[+-]?[0-9]{1,16}")
 _ESCAPE = re.compile(r"\\(?:[btnfr\"'\\]|u[0-9a-fA-F]{4}|[0-7]|(.)|\Z)", re.DOTALL)
 _AFTER_STRING = re.compile(r"[ \t\r\n\f]*+(?:[;,)}\]:=!<>&|+\-*/]|\Z)")
+_AFTER_PER_CENT = re.compile(r"[ \t]{0,20}[;,)*/+&|<>=!-]")
 _INCLUDES = ("include", "import", "use", "using", "require", "load")
 _NEARLY_INCLUDE = re.compile(r"(#[ \t]*([A-Za-z]+))[ \t]*\"")
 _CONSTANT = re.compile(r"#[ \t]*define[ \t]+([A-Za-z_$][\w$]*)[ \t]+([-+]?[0-9][\w.]*)(?=\s*(?://|/\*|$))")
@@ -115,8 +118,12 @@ def read_number(piece: Piece, start: int, word: str, strict: bool, *, is_bound: 
             help_text = "an interval is written `[1 5]`"
         elif word.strip("+-").isdecimal():
             help_text = f"write `{excerpt(word.lstrip('+-').lstrip('0'))}`: numbers have no leading zeros"
+        elif not (digits := word.translate(_LETTERS_LIKE_DIGITS)).isalpha() and _NUMBER.fullmatch(digits):
+            help_text = f"write `{excerpt(digits)}`: there are letters in it"
+            fixes = (Fix(f"write `{excerpt(digits)}`", (Edit(piece.span(start, end), digits),), safe=False),)
         elif (measured := _MEASURED.fullmatch(word)) is not None:
-            help_text = f"a number has no unit: write `{measured[1]}`"
+            unit = word[len(measured[1]) :]
+            help_text = f"a number has no unit: write `{measured[1]}`; a product is written `{measured[1]} * {unit}`"
             fixes = (Fix(f"write `{measured[1]}`", (Edit(piece.span(start, end), measured[1]),), safe=False),)
         piece.report(MALFORMED_NUMBER, start, end, text=excerpt(word), help=help_text, fixes=fixes)
     return "INT"
@@ -184,6 +191,16 @@ def read_string(piece: Piece, start: int, word: str) -> None:
             piece.report(UNKNOWN_ESCAPE, at, at + 2, text=excerpt(match[0]), help="write `\\\\` for a backslash")
 
 
+def _per_cent(piece: Piece, at: int) -> float | None:
+    """The share that a number with the `%` at `at`, which no operand follows, was meant to be."""
+    text = piece.anchor.source.text
+    following = _AFTER_PER_CENT.match(text, at + 1)
+    piece.reach = max(piece.reach, (following.end() if following is not None else at) + 2)
+    if following is None or piece.kinds[-1:] not in (["INT"], ["FLOAT"]) or piece.ends[-1] > at:
+        return None
+    return real(piece.texts[-1]) / 100.0 if text[piece.ends[-1] : at].strip(" ") == "" else None
+
+
 def _is_escaped_backslash(word: str) -> bool:
     """Whether the backslashes before the last quote of `word` pair up."""
     stem = word[:-1]
@@ -249,6 +266,13 @@ def read_other(piece: Piece, start: int, word: str) -> str | None:
     text, at = piece.anchor.source.text, piece.anchor.offset + start
     if not text[text.rfind("\n", 0, at) + 1 : at].strip() and word in _FIRST_HELP:
         help_text = _FIRST_HELP[word]
+    if word == "%" and (share := _per_cent(piece, at)) is not None:
+        written = f"{share:g}"
+        span = piece.span(piece.starts[-1] - piece.anchor.offset, end)
+        fix = Fix(f"write `{written}`", (Edit(span, written),), safe=False)
+        help_text = f"there is no per cent: write `{written}`"
+        piece.report(UNEXPECTED_CHARACTER, start, end, text=word, help=help_text, fixes=(fix,))
+        return "UNKNOWN"
     if any(letter.isalpha() for letter in word):
         help_text = "names are made of the letters a to z and A to Z, digits, `_` and `$`"
     piece.report(UNEXPECTED_CHARACTER, start, end, text=excerpt(word), help=help_text)

@@ -8,7 +8,7 @@ end of the block that it stands in.
 from bisect import bisect_left
 from typing import Any
 
-from nddl_lang.syntax.advice import advise, advise_operator, describe_found
+from nddl_lang.syntax.advice import advise, describe_found, is_operator
 from nddl_lang.syntax.braces import begins_declaration
 from nddl_lang.syntax.builder import Builder, Maker
 from nddl_lang.syntax.codes import (
@@ -28,12 +28,13 @@ from nddl_lang.syntax.codes import (
 from nddl_lang.syntax.expectation import accepts, describe_expected, expected_kinds
 from nddl_lang.syntax.former import put_in_parentheses
 from nddl_lang.syntax.idioms import Idiom, find_idiom
+from nddl_lang.syntax.joined_names import join_names
 from nddl_lang.syntax.lexemes import excerpt
 from nddl_lang.syntax.misspelt import all_relations, meant_time, meant_word
 from nddl_lang.syntax.nodes import BrokenStatement
 from nddl_lang.syntax.placement import break_statement
 from nddl_lang.syntax.reserved_names import read_as_name
-from nddl_lang.syntax.rewrites import close_block, link_tokens, rewrite
+from nddl_lang.syntax.rewrites import close_block, end_in_comment, link_tokens, rewrite
 from nddl_lang.syntax.skipping import end_of_statement, unclosed_block
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS
 from nddl_lang.syntax.turned_signs import end_at_colon, join_paths, turn_signs
@@ -95,9 +96,13 @@ class Recovery:
             del states[depth + 1 :]
             del values[depth:]
             return first
-        if self._kinds[index] == "IDENT" and advise_operator(self._b.texts[index]) is not None and index > first:
+        if any(at > first and is_operator(self._b, at) for at in (index, index - 1)):
             return self._give_up(states, values, depth, first, index)
-        if not self._is_quiet and (self._leave_modifier_out(first, index) or link_tokens(self._b, first, index)):
+        if not self._is_quiet and (
+            self._leave_modifier_out(first, index)
+            or link_tokens(self._b, first, index)
+            or join_names(self._b, first, index)
+        ):
             del states[depth + 1 :]
             del values[depth:]
             return first
@@ -312,7 +317,9 @@ class Recovery:
         b = self._b
         at = b.ends[index - 1]
         span = b.piece.span(at, at)
-        b.report(MISSING, span, text=text, place=place, notes=notes, fixes=(Fix(f"add `{text}`", (Edit(span, text),)),))
+        help_, fixes = end_in_comment(b, index) if text == ";" else (None, ())
+        fixes = fixes or (Fix(f"add `{text}`", (Edit(span, text),)),)
+        b.report(MISSING, span, text=text, place=place, help=help_, notes=notes, fixes=fixes)
 
     def _report_superfluous(self, index: int) -> None:
         text = self._b.texts[index]

@@ -1,11 +1,15 @@
 """A statement written as other languages write it in; the edit that writes it in NDDL out."""
 
+import re
+
+from nddl_lang.syntax.advice import negated
 from nddl_lang.syntax.builder import Builder
 from nddl_lang.syntax.codes import SUPERFLUOUS
 from nddl_lang.syntax.tables import END
 from nddl_lang.text.diagnostic import Edit, Fix
 from nddl_lang.text.source import Span
 
+_COMMENT_WITH_END = re.compile(r"[ \t]*(//[^/\n][^\n]*;)[ \t\r]*(?:\n|\Z)")
 _INCLUDES = frozenset(("include", "import", "using", "require"))
 _TYPES = ("BASETYPE", "IDENT")
 _AFTER_OBJECT = frozenset((";", ",", ")"))
@@ -73,6 +77,9 @@ def rewrite(b: Builder, first: int, index: int) -> Fix | None:
     if b.texts[first] in _ELSE_IF and kinds[first + 1] == "(":
         return Fix("write `else if`", (Edit(b.at(first), "else if"),))
     for at in (index, index - 1):
+        if at >= first and b.texts[at] == "not" and (contrary := negated(kinds, b.texts, at)) is not None:
+            last, text = contrary
+            return Fix(f"write `{text}`", (Edit(b.span(at, last), text),))
         if at > first and b.texts[at] == "not" and kinds[at - 1] == "IDENT" and kinds[at + 1] == "IDENT":
             return Fix("write `!=`", (Edit(b.at(at), "!="),))
         if at > first and kinds[at] == "IDENT" and (sign := _SIGNS.get(b.texts[at])) is not None:
@@ -214,6 +221,25 @@ def _parentheses(b: Builder, index: int) -> Fix | None:
     begin, end = b.ends[index - 1], b.ends[last]
     opened = Edit(Span(b.anchor, begin, b.starts[index]), "(")
     return Fix("put the token into parentheses", (opened, Edit(Span(b.anchor, end, end), ")")))
+
+
+def end_in_comment(b: Builder, index: int) -> tuple[str | None, tuple[Fix, ...]]:
+    """Where the `;` before the lexeme `index` stands in a comment: what to say, and how it may have been meant."""
+    offset = b.anchor.offset
+    at = b.ends[index - 1]
+    text = b.anchor.source.text
+    line_end = text.find("\n", offset + at)
+    b.piece.reach = max(b.piece.reach, (len(text) if line_end < 0 else line_end) - offset + 1)
+    comment = _COMMENT_WITH_END.match(text, offset + at)
+    if comment is None:
+        return None, ()
+    begin = comment.start(1) - offset
+    missing = Span(b.anchor, at, at)
+    fixes = (
+        Fix("write `;` before the comment", (Edit(missing, ";"),), safe=False),
+        Fix("write `/`", (Edit(Span(b.anchor, begin, begin + 2), "/"),), safe=False),
+    )
+    return "`//` begins a comment, in which the `;` stands; a division is written `/`", fixes
 
 
 def close_block(b: Builder, opener: int, index: int) -> Fix:

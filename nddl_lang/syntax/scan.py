@@ -20,6 +20,7 @@ from nddl_lang.syntax.braces import (
     open_branch,
     open_head,
     put_in,
+    watch_opening,
 )
 from nddl_lang.syntax.brackets import DEPTH_LIMIT, STEPS, Brackets
 from nddl_lang.syntax.codes import (
@@ -242,7 +243,7 @@ class Scanner:
         if kind == "(" and len(self._brackets.open) > 1 and kinds[0] == "class" and piece.texts[-1] == piece.texts[1]:
             if self._indent(piece.starts[-1]) >= 0:
                 close_body(piece, self._brackets, self._base, len(kinds) - 1)
-        if kind == ":" or (kind in INSTEAD and self._brackets.innermost == INSTEAD[kind]):
+        if kind == ":" or (kind in INSTEAD and self._brackets.innermost in INSTEAD[kind]):
             kind, is_read = meant_sign(kind, piece, self._brackets, self._source.text, self._base, start)
             if is_read:
                 return kind
@@ -275,8 +276,7 @@ class Scanner:
             piece.report(TOO_DEEP, start - self._base, finish - self._base, limit=DEPTH_LIMIT, help=STEPS)
         if kind != "{":
             return kind
-        if kinds[-1:] == ["{"]:
-            self._doubled = len(kinds)
+        self._doubled = watch_opening(piece, self._base, self._doubled)
         return "SET" if self._brackets.innermost == "SET" else kind
 
     def _is_head_of_rule(self) -> bool:

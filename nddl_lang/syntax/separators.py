@@ -11,19 +11,22 @@ from nddl_lang.syntax.codes import EXPECTED
 from nddl_lang.syntax.piece import Piece
 from nddl_lang.text.diagnostic import Edit, Fix
 
+_UPPER_BOUND = re.compile(r"[ \t]{0,40}([-+]?[\d.]{1,40}|inff?)[ \t]{0,40}\]")
 _LOOPS = ("for", "while")
 _REST = re.compile(r'[^\n;(){}="]*(?:;[^\n;(){}="]*)*+(\))?')
 _REST_OF_LOOP = re.compile(r"[^\n{}]*(\))?")
 _REST_OF_LINE = re.compile(r"[ \t]*(?://[^\n]*)?(?:\n|\Z)\s*+([{\"])?")
 _BEHIND = re.compile(r"([ \t]*(?://[^\n]*)?(?:\n|\Z))?([ \t\n]*)(\})?")
-# A sign that may be meant as another one where this bracket is the innermost.
-INSTEAD = {";": "(", ")": "{", "]": "{"}
+# A sign that may be meant as another one where one of these brackets is the innermost.
+INSTEAD = {";": ("(", "["), ")": ("{",), "]": ("{",)}
 _MOST_LEXEMES, _FARTHEST = 200, 1000  # of one call, so that a long line stays quick to read
 _HEADS = ("if", "foreach", "while", "for")
 
 
 def meant_sign(kind: str, piece: Piece, brackets: Brackets, text: str, base: int, start: int) -> tuple[str, bool]:
     """The sign that was meant by the one at `start`, and whether that is all there is to it."""
+    if kind == ";" and brackets.innermost == "[":
+        return (",", True) if _parts_bounds(piece, text, base, start) else (kind, False)
     if kind == ";":
         return (",", True) if _separates(piece, text, base, start) else (kind, False)
     if kind == ":":
@@ -51,6 +54,20 @@ def _separates(piece: Piece, text: str, base: int, start: int) -> bool:
     fix = Fix("write `,`", tuple(Edit(piece.span(place, place + 1), ",") for place in signs))
     help_ = "arguments are separated by commas: write `,`"
     piece.report(EXPECTED, at, at + 1, expected="`,`", found="`;`", help=help_, fixes=(fix,))
+    return True
+
+
+def _parts_bounds(piece: Piece, text: str, base: int, start: int) -> bool:
+    """Whether the `;` at `start` stands between the bounds of an interval."""
+    upper = _UPPER_BOUND.match(text, start + 1)
+    piece.reach = max(piece.reach, (start if upper is None else upper.end()) + 2)
+    if upper is None or piece.kinds[-1] not in ("INT", "FLOAT"):
+        return False
+    at = start - base
+    written = f"[{piece.texts[-1]} {upper[1]}]"
+    fix = Fix("remove `;`", (Edit(piece.span(at, at + 1), ""),), safe=False)
+    help_ = f"an interval is written `{written}`"
+    piece.report(EXPECTED, at, at + 1, expected="a number", found="`;`", help=help_, fixes=(fix,))
     return True
 
 

@@ -17,12 +17,19 @@ _TURNED = {
     ("==", "="): "==",
     ("!=", "="): "!=",
 }
+_EQUAL = ("equal", "equals")
 _PARTED = {("<", "="): "<=", (">", "="): ">=", ("!", "="): "!=", ("=", "="): "=="}  # by blanks
 
 
 def turn_signs(b: Builder, first: int, index: int, *, is_quiet: bool) -> bool:
     """Read the sign at `index`, and the one before it in the statement that begins at `first`, as one, if they are."""
     kinds = b.kinds
+    if kinds[index] == "RELATION" and b.texts[index] in _EQUAL and kinds[index - 1] == "IDENT" and index > first:
+        if not is_quiet:
+            fix = Fix("write `==`", (Edit(b.at(index), "=="),))
+            b.report(SUPERFLUOUS, b.at(index), text=b.texts[index], help="write `==`", fixes=(fix,))
+        kinds[index] = b.texts[index] = "=="
+        return True
     if kinds[index : index + 2] == ["!", "="]:
         index += 1
     pair = kinds[index - 1], kinds[index]

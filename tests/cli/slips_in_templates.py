@@ -40,7 +40,7 @@ SLIPS_IN_TEMPLATES = (
     Mistake(WINDOW, "send.size == size;", "send.size = size;", "`==`"),
     Mistake(WINDOW, "Talk talk = new Talk(Internal);", "Talk talk = new Talk(internal);", "`Internal`"),
     Mistake(WINDOW, "Talk talk = new Talk(Internal);", "Talk talk = new Talk();", "Mode"),
-    Mistake(WINDOW, "Talk talk = new Talk(Internal);", "talk Talk = new Talk(Internal);", "`Talk`"),
+    Mistake(WINDOW, "Talk talk = new Talk(Internal);", "talk Talk = new Talk(Internal);", "`Talk talk`"),
     Mistake(BATTERY, "any(Reservoir.consume use);", "any(Reservoir.consumes use);", "`consume`"),
     Mistake(BATTERY, "use.time == end;", "use.tiem == end;", "`time`"),
     Mistake(BATTERY, "use.quantity == energy;", "use.quantity == Energy;", "`energy`"),

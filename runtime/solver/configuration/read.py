@@ -21,7 +21,7 @@ from runtime.solver.configuration.codes import (
     WRONG_ROOT,
 )
 from runtime.solver.configuration.configuration import Configuration, FlawFilter, FlawHandler, FlawManager, Match
-from runtime.solver.configuration.element import Element
+from runtime.solver.configuration.element import Attribute, Element
 from runtime.solver.configuration.read_toml import read_toml
 from runtime.solver.configuration.read_xml import read_xml
 from runtime.solver.configuration.words import (
@@ -60,13 +60,29 @@ _HANDLER_ATTRIBUTES = {
 
 def read_configuration(source: Source) -> tuple[Configuration | None, tuple[Diagnostic, ...]]:
     """The configuration that `source` holds, TOML if its name ends so and XML otherwise, or None with an error."""
-    root, complaints = read_toml(source) if source.name.endswith(".toml") else read_xml(source)
+    root, complaints = _elements(source)
     if root is None:
         return None, tuple(complaints)
     reading = _Reading(complaints, is_toml=source.name.endswith(".toml"))
     configuration = reading.solver(root)
     refused = any(complaint.severity is Severity.ERROR for complaint in reading.complaints)
     return None if refused else configuration, tuple(reading.complaints)
+
+
+def written_matches(source: Source) -> Iterator[dict[str, Attribute]]:
+    """What each filter and handler is to match, by the field of `Match`, as it is written."""
+    root, _ = _elements(source)
+    waiting = [root] if root is not None else []
+    while waiting:
+        element = waiting.pop(0)
+        waiting += element.children
+        if element.tag in ("FlawFilter", "FlawHandler"):
+            found = ((field, element.find(*names)) for field, names in _MATCHES.items())
+            yield {field: attribute for field, attribute in found if attribute is not None}
+
+
+def _elements(source: Source) -> tuple[Element | None, list[Diagnostic]]:
+    return read_toml(source) if source.name.endswith(".toml") else read_xml(source)
 
 
 class _Reading:

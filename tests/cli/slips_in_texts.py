@@ -1,4 +1,4 @@
-"""The slips of `slips_at_the_telescope.txt`: what stands there, what was typed, and what must be told of it."""
+"""The slips of the texts beside this file: what stands there, what was typed, and what must be told of it."""
 
 from pathlib import Path
 
@@ -14,5 +14,10 @@ def _read(block: str) -> Slip:
     return Slip(" ".join(wrong.split()), file, right, wrong, tuple(told), tuple(parts["?"]))
 
 
-_TEXT = Path(__file__).with_suffix(".txt").read_text(encoding="utf-8")
-AT_THE_TELESCOPE = tuple(map(_read, _TEXT.split("\n\n")[1:]))
+def _read_all(name: str) -> tuple[Slip, ...]:
+    text = Path(__file__).with_name(name).read_text(encoding="utf-8")
+    return tuple(map(_read, text.split("\n\n")[1:]))
+
+
+AT_THE_TELESCOPE = _read_all("slips_at_the_telescope.txt")
+AT_THE_BREWERY = _read_all("slips_at_the_brewery.txt")
