@@ -10,7 +10,7 @@ from checker.batch.result import MissionResult
 from checker.causes import Failed, failed_by
 from checker.culprit import culprit_of
 from checker.limits import Limit
-from checker.oracle import Verdict
+from checker.oracle import Verdict, given_up
 from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, RepairStage, SourcePlace
 
@@ -31,7 +31,8 @@ def broken_plan(result: MissionResult, usual: Container[Breaking] = frozenset())
     outcome = result.outcome
     if outcome is None:
         return None
-    end = outcome.last_tick if outcome.abort is not None else outcome.last_tick + 1
+    abort = given_up(outcome)
+    end = abort.tick if abort is not None else outcome.last_tick + 1
     repairs = [
         (event, (event.reactor, culprit_of(event.conflict).place))
         for event in single_events(outcome.events)

@@ -8,7 +8,7 @@ from checker.causes import failed_by, missed_after
 from checker.culprit import Culprit, culprit_of
 from checker.limits import Limit
 from checker.losses import GoalFate, Repairs
-from checker.oracle import Judgement, Verdict
+from checker.oracle import Judgement, Verdict, given_up
 from runtime.executive.outcome import Event, OpenGoal
 
 # File and line of the culprit; without one the code, the reactor and what the reason is about. Never the number of a
@@ -54,7 +54,7 @@ class Bucket:
 def bucket_key(result: MissionResult) -> Key:
     """What a failure is grouped by: the culprit's place, or what it is about where there is none."""
     assert result.outcome is not None
-    abort, reason = result.outcome.abort, result.judgement.reason
+    abort, reason = given_up(result.outcome), result.judgement.reason
     place = _culprit(result).place
     if place is not None:
         return ("", place.file, place.line, ())
@@ -72,7 +72,7 @@ def bucket_key(result: MissionResult) -> Key:
 
 def _culprit(result: MissionResult) -> Culprit:
     """The culprit: of the conflict that ended the mission, of what was repaired too often, or Python that raised."""
-    abort = result.outcome.abort if result.outcome is not None else None
+    abort = given_up(result.outcome) if result.outcome is not None else None
     if abort is None and result.judgement.exceeded is not None and result.judgement.exceeded.limit is Limit.REPAIRS:
         at: Repairs = max(result.losses.repairs, key=lambda one: one.count)
         return Culprit(at=at.place)
@@ -104,12 +104,14 @@ def group_failures(results: tuple[MissionResult, ...]) -> tuple[Bucket, ...]:
 def _bucket(members: list[MissionResult], counted: int) -> Bucket:
     example = members[0].outcome
     assert example is not None
-    ticks = [member.outcome.last_tick for member in members if member.outcome is not None]
+    outcomes = [member.outcome for member in members if member.outcome is not None]
+    ends = [given_up(one) for one in outcomes]
+    ticks = [one.last_tick if end is None else end.tick for one, end in zip(outcomes, ends, strict=True)]
     return Bucket(
         members[0].judgement,
         members[0].open_goals,
         _culprit(members[0]),
-        example.abort.reactor if example.abort else "",
+        ends[0].reactor if ends[0] else "",
         tuple(member.number for member in members),
         round(len(members) / counted, 9),
         min(ticks),

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from checker.culprit import culprit_of, own_elements
+from checker.oracle import given_up
 from compiler.program import TOKEN_TIMES
 from runtime.executive.events import causes_of, numbered
 from runtime.executive.outcome import (
@@ -46,7 +47,7 @@ def failed_by(outcome: Outcome | None) -> Failed:
     """
     if outcome is None:
         return Failed()
-    abort = outcome.abort
+    abort = given_up(outcome)
     ends: list[Event | Abort | OpenGoal] = (
         [*refusals(outcome), abort] if abort is not None else list(outcome.open_goals)
     )
@@ -106,7 +107,7 @@ def refusals(outcome: Outcome) -> tuple[Event, ...]:
     An abort as something was missed (F6) follows from its owner's answer, and so does a goal that stayed open from
     what became of it; that in turn from what the owner was refused itself, where its conflict speaks of it.
     """
-    events, abort = outcome.events, outcome.abort
+    events, abort = outcome.events, given_up(outcome)
     if abort is None:
         ends = [goal.event for goal in outcome.open_goals if goal.event >= 0]
     elif abort.code == _MISSED and 0 <= abort.event < len(events):
@@ -124,7 +125,7 @@ def refusals(outcome: Outcome) -> tuple[Event, ...]:
 
 def missed_after(outcome: Outcome | None) -> Event | None:
     """Of what was missed (F6), the answer of an owner that it began with; None for another end."""
-    if outcome is None or outcome.abort is None:
+    if outcome is None or given_up(outcome) is None:
         return None
     return next(iter(refusals(outcome)), None)
 
@@ -213,25 +214,26 @@ def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int,
         while causes := outcome.events[current].causes:
             current = max(causes)
             way.insert(0, current)
-    if outcome.abort is None:
+    if given_up(outcome) is None:
         way.append(target)
     return tuple(way if len(way) <= _MOST_EVENTS else [way[0], *way[1 - _MOST_EVENTS :]])
 
 
 def decided_at(outcome: Outcome) -> int:
     """The index of the abort, or else of the event in which a goal was given up for a known reason; -1 if none."""
-    if outcome.abort is not None:
-        return outcome.abort.event
+    abort = given_up(outcome)
+    if abort is not None:
+        return abort.event
     return next((goal.event for goal in outcome.open_goals if goal.reason is not None), -1)
 
 
 def draws_behind(outcome: Outcome) -> tuple[str, ...]:
     """The parameters that the abort depends on by the conflict's terms, or, failing those, by the trace."""
     conflict = failed_by(outcome).conflict
-    names = conflict.parameters if conflict is not None else ()
-    if names or outcome.abort is None or not outcome.events:
+    names, abort = conflict.parameters if conflict is not None else (), given_up(outcome)
+    if names or abort is None or not outcome.events:
         return names
-    led_there = _ways_to(outcome.abort.event, outcome.events)
+    led_there = _ways_to(abort.event, outcome.events)
     return tuple(dict.fromkeys(name for index, name in _drawn(outcome.events) if index in led_there))
 
 

@@ -9,8 +9,8 @@ from enum import Enum
 
 from checker.limits import Limit, Limits
 from checker.losses import Exceeded, Losses, exceeded, losses_of
-from runtime.executive.events import single_events
-from runtime.executive.outcome import EventKind, Outcome, PropertyFate, Reason, ReasonKind
+from runtime.executive.events import numbered
+from runtime.executive.outcome import Abort, EventKind, Outcome, PropertyFate, Reason, ReasonKind
 
 _GOALS_OPEN = "F10"
 _NO_RECORD = "F7"
@@ -67,11 +67,9 @@ class Judgement:
 
 def judge(outcome: Outcome) -> Judgement:
     """Decide whether a finished mission holds what was promised."""
-    if outcome.abort is not None:
-        return Judgement(Verdict.FAIL, outcome.abort.code, outcome.abort.reason)
-    lost = next((event for event in single_events(outcome.events) if event.kind is EventKind.KILL), None)
-    if lost is not None:
-        return Judgement(Verdict.FAIL, lost.code, lost.reason)
+    end = given_up(outcome)
+    if end is not None:
+        return Judgement(Verdict.FAIL, end.code, end.reason)
     if outcome.ended_early:
         reason = Reason(ReasonKind.NO_RECORD, tick=outcome.last_tick, limit=outcome.final_tick)
         return Judgement(Verdict.FAIL, _NO_RECORD, reason)
@@ -83,6 +81,22 @@ def judge(outcome: Outcome) -> Judgement:
     if outcome.breaches:
         return Judgement(Verdict.FAIL, _BROKEN, outcome.breaches[0])
     return Judgement(Verdict.PASS)
+
+
+def given_up(outcome: Outcome) -> Abort | None:
+    """The abort, or the first reactor that was killed, told like one; None where nobody gave up."""
+    if outcome.abort is not None:
+        return outcome.abort
+    index, event = next((each for each in numbered(outcome.events) if each[1].kind is EventKind.KILL), (-1, None))
+    if event is None:
+        return None
+    assert event.reason is not None
+    before = (one for at, one in numbered(outcome.events) if at < index and one.reactor == event.reactor)
+    repairs = sum(one.kind is EventKind.RELAX for one in before)
+    lines, deadlock = tuple(event.timeline.split(", ")), event.deadlock
+    return Abort(
+        event.code, event.tick, event.reactor, lines, event.reason, event.conflict, repairs, index, deadlock=deadlock
+    )
 
 
 def judge_within(outcome: Outcome, limits: Limits) -> Judgement:

@@ -280,4 +280,5 @@ def _end_text(abort: Abort | None, story: Story) -> str:
     if abort is None:
         return f"the mission fails ({code}: {name})"
     repairs = f" after {abort.relaxes} repairs" if abort.relaxes else ""
-    return f"{abort.reactor} gives up{repairs} ({code}: {name})"
+    left = "; the others go on" if story.others_go_on else ""
+    return f"{abort.reactor} gives up{repairs} ({code}: {name}){left}"

@@ -17,7 +17,7 @@ from checker.causes import (
 from checker.culprit import culprit_of, in_telling_order
 from checker.findings import Fault
 from checker.influence import Branch, Influence, InfluenceLine
-from checker.oracle import Judgement
+from checker.oracle import Judgement, given_up
 from checker.proofs.conflict import Confirmation, confirm, needed_elements
 from checker.proofs.places import ModelText
 from checker.requested import lines_that_ask, who_chose
@@ -61,6 +61,7 @@ class Story:
     confirmation: Confirmation | None = None  # z3's word on the conflict of this mission
     refusal: Event | None = None  # what was missed had been refused with
     coded: tuple[CodeConfiguration, ...] = ()  # the reactors in Python that it goes through
+    others_go_on: bool = False  # who gave up was killed
 
 
 def tell(
@@ -98,7 +99,8 @@ def tell(
     way = [outcome.events[index] for index in sorted(indices)]
     if draws:
         way = [event for event in way if event.kind is not EventKind.SAMPLE]
-    abort = outcome.abort
+    abort = given_up(outcome)
+    ended = outcome.last_tick if abort is None else abort.tick
     if result.judgement.exceeded is not None:
         way = lost_events(outcome, result.judgement.exceeded.limit)
     way = sorted([*way, *promised_events(result, outcome, agent)], key=lambda event: event.tick)
@@ -108,20 +110,21 @@ def tell(
         *_with_askers(_conflict(conflict, confirmation), outcome, text, taken),
         *_tried(failed),
         *(Step(StepKind.WAITING, None, one) for one in waited_for(outcome, agent)),
-        Step(StepKind.ABORT, outcome.last_tick, abort, abort.reason.raised if abort is not None else None),
+        Step(StepKind.ABORT, ended, abort, abort.reason.raised if abort is not None else None),
     ]
     return Story(
         result.number,
         result.seed,
         result.judgement,
         result.open_goals,
-        outcome.last_tick,
+        ended,
         outcome.final_tick,
         tuple(_with_conditions(without_repeats(steps), text)),
         fault,
         confirmation,
         missed_after(outcome),
         _in_python(steps, agent),
+        outcome.last_tick > ended,
     )
 
 

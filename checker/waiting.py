@@ -6,6 +6,7 @@ that reactor and in those behind it.
 
 from dataclasses import dataclass
 
+from checker.oracle import given_up
 from runtime.executive.configuration import AgentConfiguration, CodeConfiguration, ReactorConfiguration
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import EventKind, Outcome
@@ -33,7 +34,7 @@ class Waiting:
 
 def waited_for(outcome: Outcome, agent: AgentConfiguration) -> tuple[Waiting, ...]:
     """The requests that were not over at the end, from open goals for no known reason on, each before what it needs."""
-    if outcome.abort is not None:
+    if given_up(outcome) is not None:
         return ()
     events = single_events(outcome.events)
     over = {event.request for event in events if event.kind in _OVER}

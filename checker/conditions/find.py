@@ -21,6 +21,7 @@ from checker.conditions.flights import (
 from checker.conditions.measure import Quality, measure, measured_on, parts_that_hold
 from checker.conditions.rules import induce, sample_cuts
 from checker.conditions.space import Space
+from checker.oracle import given_up
 from checker.smt.edges import find_failing_range
 from runtime.executive.configuration import AgentConfiguration
 
@@ -88,7 +89,7 @@ def find_condition(
 
 def _in_terms(condition: Condition, example: MissionResult, space: Space) -> tuple[Literal, ...]:
     """The edges of one parameter at which z3 finds the conflict of the example to begin."""
-    abort = example.outcome.abort if example.outcome else None
+    abort = given_up(example.outcome) if example.outcome else None
     row = space.row(example)
     if abort is None or abort.conflict is None or row is None:
         return ()

@@ -20,6 +20,7 @@ from checker.counterfactual.removals import forbidden_by, limited_between, remov
 from checker.counterfactual.smallness import is_loosening
 from checker.culprit import culprit_of, own_elements
 from checker.mutation.edits import EditSite, SmallEdit
+from checker.oracle import given_up
 from checker.proofs.places import ModelText
 from compiler.program import TOKEN_TIMES
 from nddl_lang.text.read import real_path
@@ -184,9 +185,8 @@ def candidates_of(
         near = [number for number, (far, _) in roots.items() if far <= _LOG]
         seen |= {name.rpartition(".")[2] for name in graph.tokens_at(near)}
     inside = {number for place in at_odds for number in graph.at(str(real_path(root / place.file)), place.line)}
-    behind = (
-        first if first is not None and outcome.abort is not None and first.reactor != outcome.abort.reactor else None
-    )
+    abort = given_up(outcome)
+    behind = first if first is not None and abort is not None and first.reactor != abort.reactor else None
     told = [_told(failed.conflict, graph, root)]
     if behind is not None:  # who ended may know only that another one took as long as it was asked to
         conflict = behind.conflict if behind.deadlock is None else in_common(behind.deadlock)
@@ -258,7 +258,7 @@ def _asked(conflict: Conflict | None) -> set[tuple[str, str]]:
 
 def _tokens_in(outcome: Outcome, failed: Failed, first: Event | None) -> set[str]:
     """The predicates of the tokens that conflicts speak of: of the end, of what was tried, of the first trouble."""
-    ends: tuple[Failed | Event | Abort | None, ...] = (failed, first, outcome.abort)
+    ends: tuple[Failed | Event | Abort | None, ...] = (failed, first, given_up(outcome))
     conflicts = [one.conflict for one in ends if one is not None and one.conflict is not None]
     conflicts += [each for one in ends if one is not None and one.deadlock for each in one.deadlock.conflicts()]
     elements = (element for conflict in conflicts for element in own_elements(conflict))
@@ -281,10 +281,11 @@ def _named(
         yield from _places(one.conflict, _CONFLICT, Suspicion.CONFLICT)
         yield from _logged(one.deadlock)
     far = _EVENT if refused else _CONFLICT  # what was missed only shows that it was refused
-    if outcome.abort is not None:
-        for each in (outcome.abort.conflict, *outcome.abort.repairs):
+    abort = given_up(outcome)
+    if abort is not None:
+        for each in (abort.conflict, *abort.repairs):
             yield from _places(each, far, Suspicion.CONFLICT)
-        yield from _logged(outcome.abort.deadlock)
+        yield from _logged(abort.deadlock)
     for goal in outcome.open_goals:
         yield from _places(goal.conflict, far, Suspicion.CONFLICT)
         yield from _logged(goal.deadlock)
@@ -318,7 +319,8 @@ def _ended_by(outcome: Outcome, begun: Container[str]) -> set[str]:
 def _predicates(outcome: Outcome) -> set[str]:
     """The predicates of what ended the mission, or of what it left open."""
     found = {goal.predicate for goal in outcome.open_goals}
-    reason = outcome.abort.reason if outcome.abort is not None else None
+    abort = given_up(outcome)
+    reason = abort.reason if abort is not None else None
     while reason is not None:
         found |= {reason.predicate, reason.token.predicate.rpartition(".")[2] if reason.token is not None else ""}
         reason = reason.repair
@@ -351,7 +353,7 @@ def _sets(text: str, name: str) -> bool:
 def _broken(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> list[tuple[str, TokenPattern]]:
     """The patterns of the first violated property, each with the predicate that it is about."""
     broken = next((one for one in outcome.properties if not one.is_kept), None)
-    if outcome.abort is not None or broken is None:
+    if given_up(outcome) is not None or broken is None:
         return []
     patterns = [pattern for each in properties if each.name == broken.name for pattern in (each.pattern, each.then)]
     latest = _latest(outcome, broken.tick)

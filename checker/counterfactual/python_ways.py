@@ -5,6 +5,7 @@ No line of a model says what such a reactor makes of what it is told, so all of 
 
 from collections.abc import Collection, Sequence
 
+from checker.oracle import given_up
 from runtime.executive.configuration import CodeConfiguration
 from runtime.executive.events import events_on, heads_of
 from runtime.executive.outcome import Event, EventKind, Outcome
@@ -18,7 +19,8 @@ def read_in_python(
         return set()
     failed = {predicate.rpartition(".")[2] for predicate, _ in observed}
     spoken = {timeline for _, _, timeline, predicate in heads_of(outcome.events) if predicate in failed}
-    ended = outcome.abort.reactor if outcome.abort is not None else ""
+    abort = given_up(outcome)
+    ended = abort.reactor if abort is not None else ""
     waiting = [one for one in coded if one.name == ended or spoken & set(one.internal)]
     read: set[str] = set()
     while waiting:

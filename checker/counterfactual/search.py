@@ -31,7 +31,7 @@ from checker.mutation.edits import EditSite, SmallEdit, sites_of
 from checker.mutation.kinds import OUTSIDE
 from checker.mutation.mission_edits import agent_with
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
-from checker.oracle import Verdict, judge_losses
+from checker.oracle import Verdict, given_up, judge_losses
 from checker.proofs.places import text_of
 from checker.sampling.sampler import with_point
 from compiler.program import Program
@@ -136,7 +136,7 @@ def _checks_in(outcome: Outcome, root: Path) -> set[tuple[str, int, int]]:
 
 def _raised_in(failed: MissionResult) -> RankedLine | None:
     """The line of the project's Python that raised, where that ended a mission."""
-    abort = failed.outcome.abort if failed.outcome is not None else None
+    abort = given_up(failed.outcome) if failed.outcome is not None else None
     if abort is None or abort.reason.raised is None:
         return None
     return RankedLine(abort.reason.raised, "", Claim.RAISED, variable=abort.reactor)

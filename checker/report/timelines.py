@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from html import escape
 
 from checker.batch.result import MissionResult
+from checker.oracle import given_up
 from checker.sampling.rendering import number
 from checker.steps import StepKind
 from checker.story import Story
@@ -49,7 +50,7 @@ def pair_plot(pair: Pair, story: Story) -> str:
     names = _timelines(outcomes[0], outcomes[1])
     marks = [(at, step.tick) for at, step in enumerate(story.steps, 1) if step.tick is not None]
     touched = {step.subject.timeline for step in story.steps if isinstance(step.subject, Event)}
-    abort = outcomes[0].abort
+    abort = given_up(outcomes[0])
     touched |= set(abort.timelines) if abort is not None else set()
     faulty = {at for at, step in enumerate(story.steps, 1) if step.kind in (StepKind.FAULT, StepKind.ABORT)}
     failing = _mission_plot(outcomes[0], names, last, marks, touched, faulty)
