@@ -95,6 +95,22 @@ _OTHER_WORDS = {
     **dict.fromkeys(("uses", "subscribes"), "external"),
     **dict.fromkeys(("ticks", "duration", "horizon", "end_tick"), "final_tick"),
     **dict.fromkeys(("params", "arguments", "args"), "parameters"),
+    **dict.fromkeys(("planner", "plan_cfg", "strategy"), "solver"),
+    **dict.fromkeys(("delay", "lag"), "latency"),
+    **dict.fromkeys(("timeout", "max_seconds"), "time_limit"),
+    **dict.fromkeys(("dt", "step", "tick_length"), "tick"),
+    **dict.fromkeys(("every", "period", "rhythm"), "update"),
+    **dict.fromkeys(("probabilities", "probs", "odds"), "weights"),
+    **dict.fromkeys(("choices", "options", "list"), "values"),
+    **dict.fromkeys(("formula", "function"), "expression"),
+    **dict.fromkeys(("condition", "if", "filter"), "where"),
+}
+# The same where the table has no such key.
+_OTHER_WORDS_ELSEWHERE = {
+    **dict.fromkeys(("end", "finish", "until", "latest", "deadline", "before"), "by"),
+    **dict.fromkeys(("start", "begin", "since", "after", "earliest"), "from"),
+    **dict.fromkeys(("limit", "max", "delay", "duration"), "ticks"),
+    "horizon": "lookahead",
 }
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 _LEAST_LETTERS = 4  # of a key that can be told from others when it is misspelt
@@ -332,8 +348,8 @@ class Table:
 
 def _meant_word(word: str, known: Sequence[str]) -> str | None:
     """The one of the known words that was meant by another: misspelt, cut short, or the word of another tool."""
-    other = _OTHER_WORDS.get(word.casefold())
-    return nearest(word, known) or begun(word, known) or (other if other in known else None)
+    others = (words.get(word.casefold()) for words in (_OTHER_WORDS, _OTHER_WORDS_ELSEWHERE))
+    return nearest(word, known) or begun(word, known) or next((other for other in others if other in known), None)
 
 
 def _as_pair(value: object) -> str | None:

@@ -17,10 +17,9 @@ from checker.goal_fit import strange_value
 from checker.mission import Mission
 from checker.mission_table import describe
 from checker.named_objects import named_objects
-from checker.respelt import respelt, rewritten
+from checker.respelt import meant_name, respelt, rewritten
 from compiler.program import DomainConstant, ParameterSite, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note
-from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
@@ -164,7 +163,7 @@ def _has(program: Program, timeline: str, predicate: str) -> bool:
 
 
 def _advice(name: str, known: list[str], what: str) -> str:
-    close = nearest(name, known)
+    close = meant_name(name, known)
     return f"did you mean `{close}`?" if close else f"{what}: {', '.join(known) or 'none'}"
 
 

@@ -17,10 +17,9 @@ from checker.goal_fit import strange_value
 from checker.mission import Mission
 from checker.mission_table import describe
 from checker.named_objects import named_objects, resources_of
-from checker.respelt import respelt, rewritten
+from checker.respelt import meant_name, respelt, rewritten
 from compiler.program import TOKEN_TIMES, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic
-from nddl_lang.text.nearest import nearest
 from runtime.executive.configuration import LevelPattern, PropertyConfiguration, TokenPattern
 from runtime.executive.expression import parse_expression
 
@@ -153,7 +152,7 @@ def _strange_values(
 
 
 def _advice(name: str, known: list[str], what: str) -> str:
-    close = nearest(name, known)
+    close = meant_name(name, known)
     return f"did you mean `{close}`?" if close else f"{what}: {', '.join(known) or 'none'}"
 
 

@@ -1,6 +1,6 @@
 """A complaint about a misspelt name in a mission file in; the same with the fix that writes the right one out."""
 
-from collections.abc import Iterable
+from collections.abc import Collection
 from dataclasses import replace
 
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
@@ -8,9 +8,15 @@ from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Span
 
 
-def respelt(complaint: Diagnostic, name: str, known: Iterable[str]) -> Diagnostic:
+def meant_name(name: str, known: Collection[str]) -> str | None:
+    """The known name that was meant by another: the last part of it, as in `Nav.Hold`, or the nearest."""
+    last = name.replace("::", ".").rpartition(".")[2]
+    return last if last != name and last in known else nearest(name, known)
+
+
+def respelt(complaint: Diagnostic, name: str, known: Collection[str]) -> Diagnostic:
     """`complaint`, which stands at `name`, with a fix where one of the known names resembles it."""
-    close = nearest(name, known)
+    close = meant_name(name, known)
     return complaint if close is None else rewritten(complaint, name, close)
 
 

@@ -1,5 +1,6 @@
 """Text in; the meaning of a model and all that is wrong with it out."""
 
+import re
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
@@ -37,6 +38,7 @@ from nddl_lang.text.source import Source, Span
 
 _TEXT_IS_MISSING = (MISSING_FILE, UNREADABLE_FILE, TOO_DEEP, TOO_LARGE, UNCLOSED_COMMENT)
 _UNKNOWN = (UNKNOWN_NAME, UNKNOWN_TYPE, UNKNOWN_CLASS)
+_NAMELESS = re.compile(r"typedef\s+(?:int|float|bool|string)[^\w]*(?:[\d.]+[^\w]*)*;?")
 _INCLUDING = frozenset(("include", "import", "using"))
 _TABLES = tuple(table.name for table in fields(SideTables))
 
@@ -257,8 +259,8 @@ def _supposed_of(statement: Statement) -> dict[Entry, object]:
         words = names_in(broken.span.text)
         for word in words:
             entries |= doubt(word)
-        if not _INCLUDING.isdisjoint(words):
-            entries |= doubt()
+        if not _INCLUDING.isdisjoint(words) or _NAMELESS.fullmatch(broken.span.text):
+            entries |= doubt()  # what it was to declare is not told
     for name in _declared_names(statement):
         entries |= declare_below(name.name, name.span)
     return entries

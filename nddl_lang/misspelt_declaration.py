@@ -69,6 +69,9 @@ def name_misspelt_declaration(
         is_unused = sum(count(each, name) for each in texts) == 1
         is_type = any(each.code in _TYPES for each in complaints)  # a variable may be called like the type meant
         uses = len(complaints) if is_type or used in declarations else count(source, used)
+        is_capital = name[0].islower() and used == name[0].upper() + name[1:]
+        if is_type and is_capital and count(source, used) >= _FEWEST:
+            is_unused, uses = True, count(source, used)  # what has that name in small letters is a variable
         if is_unused and uses >= _FEWEST:
             told |= dict.fromkeys(complaints)
             told[complaints[0]] = _told_there(declaration, used, complaints)

@@ -133,14 +133,14 @@ def _declarations_at(
 
 
 def _told_once(
-    loaded: LoadedModules, source: Source, found: Iterable[Diagnostic], file: str, names: list[str]
+    loaded: LoadedModules, source: Source, found: Sequence[Diagnostic], file: str, names: list[str]
 ) -> Iterable[Diagnostic]:
-    is_first = True
+    ours = [each for each in found if _is_unknown(each, source) and each.span.text in names]
+    first = min(ours, key=lambda each: each.span.begin)
     for each in found:
-        if not _is_unknown(each, source) or each.span.text not in names:
+        if each not in ours:
             yield each
-        elif is_first:
-            is_first = False
+        elif each is first:
             others = [f"`{name}`" for name in names if name != each.span.text]
             also = f"{', '.join(others[:-1])} and {others[-1]}" if len(others) > 1 else others[0]
             advice = f"`{file}`, which is not included, declares `{each.span.text}`, and {also}"

@@ -9,8 +9,17 @@ from nddl_lang.lint.part import Facts, Finding, Key, Part
 from nddl_lang.lint.reading import declared, domain_of, key_of
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.schema import Domain, GlobalReference, LocalReference, Reference, Variable
-from nddl_lang.syntax.nodes import BinaryExpr, CallConstraint, CallExpr, Expr, ExprConstraint, PathExpr, RuleDecl
-from nddl_lang.text.diagnostic import Diagnostic, Note
+from nddl_lang.syntax.nodes import (
+    BinaryExpr,
+    CallConstraint,
+    CallExpr,
+    Expr,
+    ExprConstraint,
+    IntLiteral,
+    PathExpr,
+    RuleDecl,
+)
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 from nddl_lang.text.source import Span
 
 
@@ -78,6 +87,13 @@ def _fitting(draw: _DrawSite) -> Finding:
         notes = (Note(f"`{variable.name}` is declared here", variable.span),)
         kind = variable.type.kind
         if domains.is_single(range_):
+            if (difference := _meant_interval(variable)) is not None:
+                place, written = difference
+                notes = (Note("what is drawn is used here", draw.span),)
+                help_ = f"`{place.text}` is a difference; an interval is written `{written}`"
+                fixes = (Fix(f"write `{written}`", (Edit(place, written),), safe=False),)
+                value = domains.text(range_)
+                return NEVER_VARIED.at(place, notes=notes, help=help_, fixes=fixes, name=draw.name, value=value)
             help_ = f"give it a range, as in `{variable.name} = [1 5]`, or use the value without `sampledParameter`"
             return NEVER_VARIED.at(draw.span, notes=notes, help=help_, name=draw.name, value=domains.text(range_))
         if draw.domain is not None and not domains.is_within(range_, draw.domain, kind):
@@ -94,6 +110,14 @@ def _fitting(draw: _DrawSite) -> Finding:
         return None
 
     return finding
+
+
+def _meant_interval(variable: Variable) -> tuple[Span, str] | None:
+    """Where `2-6` stands for the range of a parameter, and how that is written."""
+    match variable.initialiser:
+        case BinaryExpr(op="-", left=IntLiteral(value=low), right=IntLiteral(value=high), span=span) if low < high:
+            return span, f"[{low} {high}]"
+    return None
 
 
 def compare_draws(parts: list[Part]) -> Iterator[Diagnostic]:

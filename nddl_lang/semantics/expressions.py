@@ -23,6 +23,7 @@ from nddl_lang.semantics.literals import number
 from nddl_lang.semantics.meant import (
     comparison_meant,
     is_token_in,
+    member_meant,
     number_meant,
     parameter_meant,
     relation_meant,
@@ -216,8 +217,14 @@ def _is_sum_of_times(context: Context, expression: Expr) -> bool:
 def _arithmetic_type(context: Context, binary: BinaryExpr, left: Type | None, right: Type | None) -> Type | None:
     for side, type_ in ((binary.left, left), (binary.right, right)):
         if type_ is not None and type_.kind not in NUMBERS:
+            help_, fixes = member_meant(context, side, type_)
             complaint = NOT_A_NUMBER.at(
-                side.span, op=binary.op, text=side.span.text, found=phrase(type_), help=time_meant(context, side)
+                side.span,
+                op=binary.op,
+                text=side.span.text,
+                found=phrase(type_),
+                help=help_ or time_meant(context, side),
+                fixes=fixes,
             )
             context.complain(complaint)
             return None

@@ -5,11 +5,12 @@ import re
 from nddl_lang.semantics.natives import builtin_type
 from nddl_lang.semantics.schema import Kind, TokenReference, Type
 from nddl_lang.semantics.scope import Context
-from nddl_lang.semantics.types import comparable
-from nddl_lang.syntax.nodes import BinaryExpr, CallExpr, Expr, StringLiteral, UnaryExpr
+from nddl_lang.semantics.types import NUMBERS, comparable
+from nddl_lang.syntax.nodes import BinaryExpr, CallExpr, Expr, PathExpr, StringLiteral, UnaryExpr
 from nddl_lang.text.diagnostic import Edit, Fix
 from nddl_lang.text.nearest import nearest
 
+_MOST_MEMBERS = 4  # that a help lists
 _COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
 _QUOTED = {Kind.INT: re.compile(r"[-+]?\d+"), Kind.FLOAT: re.compile(r"[-+]?\d+(?:\.\d+)?")}
 
@@ -49,6 +50,17 @@ def parameter_meant(context: Context, token: Expr, other: Type) -> tuple[Fix, ..
         return ()
     text = f"{token.span.text}.{names[0]}"
     return (Fix(f"write `{text}`", (Edit(token.span, text),), safe=False),)
+
+
+def member_meant(context: Context, side: Expr, type_: Type) -> tuple[str | None, tuple[Fix, ...]]:
+    """Where an object stands for a number: the members of it that are numbers."""
+    if type_.kind is not Kind.OBJECT or not isinstance(side, PathExpr):
+        return None, ()
+    owners = context.symbols.ancestry(type_.base)
+    numbers = [one.name for owner in owners for one in owner.members.values() if one.type.kind in NUMBERS]
+    texts = [f"{side.span.text}.{name}" for name in numbers[:_MOST_MEMBERS]]
+    fixes = tuple(Fix(f"write `{text}`", (Edit(side.span, text),), safe=False) for text in texts if len(texts) == 1)
+    return f"did you mean {' or '.join(f'`{text}`' for text in texts)}?" if texts else None, fixes
 
 
 def number_meant(side: Expr, other: Type) -> tuple[Fix, ...]:

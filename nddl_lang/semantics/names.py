@@ -18,6 +18,7 @@ from nddl_lang.semantics.codes import (
     UNKNOWN_TOKEN_VARIABLE,
 )
 from nddl_lang.semantics.natives import builtin_names, builtin_type, other_name
+from nddl_lang.semantics.owned_names import owned_names
 from nddl_lang.semantics.schema import (
     ClassReference,
     EnumValue,
@@ -77,12 +78,18 @@ def resolve_value(context: Context, scope: Scope, path: PathExpr, compared: str 
     return reference
 
 
-def _complain_class(context: Context, scope: Scope, span: Span, name: str) -> None:
-    """Say that a class stands where a value is needed: its name may differ from a variable's in a capital only."""
+def _complain_class(
+    context: Context, scope: Scope, span: Span, name: str, value: EnumValue | None = None, path: Span | None = None
+) -> None:
+    """Say that a class stands where a value is needed: its name may differ from a variable's in a capital only.
+
+    `value` is what follows it in the `path`, if that is a value of an enum.
+    """
     values = [*scope.visible(), *context.symbols.names("global")]
     alike = next((each for each in values if each.casefold() == name.casefold() and each != name), None)
-    fixes = (Fix(f"write `{alike}`", (Edit(span, alike),), safe=False),) if alike is not None else ()
-    help_ = f"did you mean `{alike}`?" if alike is not None else None
+    meant, at = (f"{value.enum}.{value.value}", path or span) if value is not None else (alike, span)
+    fixes = (Fix(f"write `{meant}`", (Edit(at, meant),), safe=False),) if meant is not None else ()
+    help_ = f"did you mean `{meant}`?" if meant is not None else None
     context.complain(CLASS_AS_VALUE.at(span, help=help_, fixes=fixes, name=name))
 
 
@@ -147,7 +154,9 @@ def resolve_dotted(
             return None
         case ClassReference(name=name):
             context.tables.references[head] = start
-            _complain_class(context, scope, head.span, name)
+            _complain_class(
+                context, scope, head.span, name, symbols.find_value(rest[-1].name), head.span.to(rest[-1].span)
+            )
             return None
     context.tables.references[head] = start
     return follow(context, scope, start, head, rest, but)
@@ -322,9 +331,9 @@ def complain_unknown(
         if constructed is not None and _is_predicate(context, constructed, word):
             meant = f'"{word}"'
             help_ = f"a predicate is named in quotes: `{meant}`"
-        elif of_token := _variables_of_tokens(scope, word):
-            meant = of_token[0] if len(of_token) == 1 else None
-            help_ = f"say of which token: {' or '.join(f'`{each}`' for each in of_token)}"
+        elif owned := owned_names(context, scope, word):
+            meant = owned[0] if len(owned) == 1 else None
+            help_ = f"say of what: {' or '.join(f'`{each}`' for each in owned)}"
         elif word == "self" and (scope.own is not None or constructed is not None):
             meant = "this"
         complaint = UNKNOWN_NAME.at(name.span, name=word, help=help_)
@@ -339,18 +348,6 @@ def complain_unknown(
             fix = Fix(f"declare `{type_name} {word}`", (Edit(before, f"{type_name} "),), safe=False)
             complaint = _with(complaint, complaint.help or fix.title, (*complaint.fixes, fix))
         context.complain(complaint)
-
-
-def _variables_of_tokens(scope: Scope, name: str) -> list[str]:
-    """The variables of the tokens that a block names which are called so."""
-    found: list[str] = []
-    block: Scope | None = scope
-    while block is not None:
-        for label in block.labels.values():
-            if any(parameter.name == name for parameter in label.predicate.parameters):
-                found.append(f"{label.name}.{name}")
-        block = block.parent
-    return found
 
 
 def _is_predicate(context: Context, class_name: str, name: str) -> bool:

@@ -144,6 +144,16 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
     ),
     (rf"enum {_N} \{{? ?.*=.*", "an enum lists names, without numbers: `enum E { a, b }`", ""),
     (
+        rf"typedef (\[.*\]|\{{.*\}}) ({_TYPE}) ({_N}) ;",
+        r"the domain stands behind the type: `typedef \2 \1 \3;`",
+        r"typedef \2 \1 \3;",
+    ),
+    (
+        rf"typedef ({_TYPE}) (\[.*\]|\{{.*\}}) ;",
+        r"the name of the type stands last: `typedef \1 \2 Name;`",
+        "",
+    ),
+    (
         rf"typedef ({_N}) ({_TYPE}) (\[.*\]|\{{.*\}}) ;|typedef ({_TYPE}) ({_N}) (\[.*\]|\{{.*\}}) ;",
         r"the name stands last: `typedef \2\4 \3\6 \1\5;`",
         r"typedef \2\4 \3\6 \1\5;",

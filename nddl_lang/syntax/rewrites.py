@@ -37,6 +37,10 @@ def rewrite(b: Builder, first: int, index: int) -> Fix | None:
         case "class" if index == first + 2 and kinds[index : index + 3] == ["(", "IDENT", ")"]:
             text = f" extends {b.texts[index + 1]}"
             return Fix(f"write `{text.strip()}`", (Edit(_from(b, index - 1, index + 2), text),))
+        case "enum" if kind == "STRING" and "}" in kinds[index:]:
+            strings = [at for at in range(index, kinds.index("}", index)) if kinds[at] == "STRING"]
+            edits = tuple(Edit(b.at(at), b.texts[at].strip('"')) for at in strings)
+            return Fix("write the names without quotes", edits)
         case "enum" if kind == ";" and "}" in kinds[index:]:
             return _commas_between_names(b, index)
         case "if" if index == first + 1 and "{" in kinds[index:]:
@@ -56,6 +60,8 @@ def rewrite(b: Builder, first: int, index: int) -> Fix | None:
             path = b.span(index, kinds.index(">", index))
             text = f'"{path.text[1:-1].strip()}"'
             return Fix(f"write `{text}`", (Edit(path, text),)) if "\n" not in text else None
+        case "#include" if kind == "IDENT" and index == first + 1:
+            return _quoted_path(b, index)
         case "IDENT" if kind == "STRING" and index == first + 1 and b.texts[first] in _INCLUDES:
             return Fix("write `#include`", (Edit(b.at(first), "#include"),))
         case "IDENT" if before == ["IDENT", "IDENT"] and kind == "::":
@@ -92,6 +98,15 @@ def rewrite(b: Builder, first: int, index: int) -> Fix | None:
         end = b.ends[index - 1]
         return Fix("add `()`", (Edit(Span(b.anchor, end, end), "()"),))
     return None
+
+
+def _quoted_path(b: Builder, index: int) -> Fix:
+    """The path of an include that stands without quotes, up to the end of its line, in quotes."""
+    last = index
+    while b.kinds[last + 1] != END and b.ends[last] == b.starts[last + 1] and b.kinds[last + 1] != ";":
+        last += 1
+    written = f'"{b.span(index, last).text}"'
+    return Fix(f"write `{written}`", (Edit(b.span(index, last), written),), safe=False)
 
 
 def _word(b: Builder, index: int, word: str) -> Edit:

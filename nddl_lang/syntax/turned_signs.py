@@ -30,7 +30,7 @@ def turn_signs(b: Builder, first: int, index: int, *, is_quiet: bool) -> bool:
             b.report(SUPERFLUOUS, b.at(index), text=b.texts[index], help="write `==`", fixes=(fix,))
         kinds[index] = b.texts[index] = "=="
         return True
-    if kinds[index : index + 2] == ["!", "="]:
+    if kinds[index : index + 2] in (["!", "="], [":", "="]):
         index += 1
     pair = kinds[index - 1], kinds[index]
     if index <= first or (pair not in _TURNED and pair not in _PARTED):
