@@ -195,7 +195,8 @@ def assess(
         flier = refly if is_wanted and (allowance is None or allowance()) else None
         has_time = forever if allowance is None else allowance.begin()
         asked = None if focus is None or is_wanted else Fault(bucket, None, None)  # nobody asks for this one
-        fault = asked or let(partial(_fault, bucket, ordered, agent, seed, flier, conditions or {}, text, has_time))
+        known, most = conditions or {}, sampling.most_weight
+        fault = asked or let(partial(_fault, bucket, ordered, agent, seed, flier, known, text, has_time, most))
         fault = Fault(bucket, None, None, is_cut=True) if fault is None else fault
         faults.append(replace(fault, interval=interval, causes=found))
     is_cut = any(one.is_cut or one.causes.ended is TrialsEnd.CANCELLED for one in faults)
@@ -243,13 +244,14 @@ def _fault(
     known: Conditions,
     text: ModelText | None,
     has_time: HasTime,
+    most_weight: float,
 ) -> Fault:
     example = next(result for result in results if result.number == bucket.example)
     conflict = blamed(example).conflict
     confirmation = confirm(conflict, text) if conflict is not None else None
     condition = known.get(bucket.example, bucket.example)
     if isinstance(condition, int):
-        condition = find_condition(bucket, results, agent, seed, refly, has_time)
+        condition = find_condition(bucket, results, agent, seed, refly, has_time, most_weight)
     return Fault(bucket, condition, confirmation, is_tested=refly is not None and bool(agent.parameters))
 
 

@@ -84,6 +84,15 @@ class Share:
 
 
 @dataclass(frozen=True, slots=True)
+class Unseen:
+    """No mission is known with a feature between `below`, which is on one side of an edge, and `above` on the other."""
+
+    feature: Feature
+    below: float
+    above: float
+
+
+@dataclass(frozen=True, slots=True)
 class Condition:
     """Missions fail when one of the conjunctions holds.
 
@@ -98,6 +107,7 @@ class Condition:
     fresh: int
     near: int | None
     flights: int
+    unseen: tuple[Unseen, ...] = ()  # where its edges lie, where that is known no better
     in_terms: tuple[Literal, ...] = ()  # edges at which z3 finds the terms of the example's conflict to begin
 
     @property

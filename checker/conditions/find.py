@@ -5,7 +5,17 @@ from dataclasses import replace
 
 from checker.batch.result import MissionResult
 from checker.buckets import Bucket
-from checker.conditions.condition import Condition, Conjunction, Extreme, Feature, Literal, Row, axis_feature, holds
+from checker.conditions.condition import (
+    Condition,
+    Conjunction,
+    Extreme,
+    Feature,
+    Literal,
+    Row,
+    Unseen,
+    axis_feature,
+    holds,
+)
 from checker.conditions.crossings import FINE, find_crossings, mend_crossings
 from checker.conditions.edges import find_edges
 from checker.conditions.flights import (
@@ -18,10 +28,11 @@ from checker.conditions.flights import (
     fresh_budget,
     label_of,
 )
-from checker.conditions.measure import Quality, measure, measured_on, parts_that_hold
+from checker.conditions.measure import Quality, measure, measured_on, parts_that_hold, weighted_on
 from checker.conditions.rules import induce, sample_cuts
 from checker.conditions.space import Space
 from checker.oracle import given_up
+from checker.sampling.sampler import MissionRole, SamplePoint
 from checker.smt.edges import find_failing_range
 from runtime.executive.configuration import AgentConfiguration
 
@@ -30,6 +41,8 @@ _LEAST_GAIN = 1 / 3  # of what is still open when only the rate of failures is k
 _LEAST_HELD_BACK = 4  # failing missions to measure on, where none can be flown
 _FIRST_SHARE = 0.6  # of the flights
 _ROUNDS = 3  # in which mistakes of the rules are looked into
+_WIDE = 0.01  # of a range
+_Sampled = tuple[Row, Ended, SamplePoint]  # what a mission of the run drew, how it ended, and why it drew that
 _MOST_POINTS = 24  # of the run from which crossings are sought
 
 
@@ -40,18 +53,21 @@ def find_condition(
     batch_seed: int,
     refly: Refly | None,
     has_time: HasTime = forever,
+    most_weight: float = 1.0,
 ) -> Condition | None:
     """The condition under which missions fail as those of `bucket`; None where nothing can be claimed.
 
-    Where time is over before the flights are, its edges are coarser, and it is tested on fewer fresh missions.
+    Where time is over before the flights are, its edges are coarser, and it is tested on fewer fresh missions. No
+    mission of the run has more than `most_weight`.
     """
     example = next(result for result in results if result.number == bucket.example)
     space = Space(agent, results)
     if not space.parameters:
         return None
-    rows = _rows(space, results, bucket)
+    sampled = _rows(space, results, bucket)
     if refly is None:
-        return _from_samples(space, rows)
+        return _from_samples(space, sampled, most_weight)
+    rows = [(row, label) for row, label, _ in sampled]
     flights = Flights(bucket, example, space, refly, flight_budget(example), has_time)
     fails = [space.point(row) for row, label in rows if label is Ended.FAILS]
     passes = [space.point(row) for row, label in rows if label is Ended.PASSES]
@@ -83,8 +99,11 @@ def find_condition(
     if kept != conjunctions:  # each part has to hold by itself
         conjunctions = kept
         measured = measure(conjunctions, space, bucket, batch_seed, refly, budget, has_time)
-    found = claimed(conjunctions, measured, flights.count, space, _share_of(rows), has_flown=True)
-    return None if found is None else replace(found, in_terms=_in_terms(found, example, space))
+    found = claimed(conjunctions, measured, flights.count, space, _share_of(sampled), has_flown=True)
+    if found is None:
+        return None
+    unseen = _unseen_by(found, [row for row, _ in (*rows, *flights.rows())], space)
+    return replace(found, in_terms=_in_terms(found, example, space), unseen=unseen)
 
 
 def _in_terms(condition: Condition, example: MissionResult, space: Space) -> tuple[Literal, ...]:
@@ -107,12 +126,12 @@ def _in_terms(condition: Condition, example: MissionResult, space: Space) -> tup
     return tuple(found)
 
 
-def _rows(space: Space, results: Sequence[MissionResult], bucket: Bucket) -> list[tuple[Row, Ended]]:
-    rows: list[tuple[Row, Ended]] = []
+def _rows(space: Space, results: Sequence[MissionResult], bucket: Bucket) -> list[_Sampled]:
+    rows: list[_Sampled] = []
     for result in results:
         label, row = label_of(result, bucket), space.row(result)
         if label is not None and row is not None:
-            rows.append((row, label))
+            rows.append((row, label, result.point))
     return rows
 
 
@@ -134,7 +153,8 @@ def _induced(
     flown: Sequence[tuple[Row, Ended]] = (),
 ) -> tuple[Conjunction, ...]:
     """Rules over the edges that flights found, with cuts of the samples where a parameter has none."""
-    cuts = sample_cuts(rows, _features(space, {one.feature for one in edges}))
+    stepped = {axis.name for axis in space.parameters if axis.is_stepped()}
+    cuts = sample_cuts(rows, _features(space, {one.feature for one in edges}), stepped)
     return induce(rows, [*edges, *cuts], flown)
 
 
@@ -146,21 +166,55 @@ def _features(space: Space, known: set[Feature]) -> list[Feature]:
     return found
 
 
-def _from_samples(space: Space, rows: Sequence[tuple[Row, Ended]]) -> Condition | None:
-    """From the missions of the run alone: found on every second one, measured on the others."""
-    fails = [one for one in rows if one[1] is Ended.FAILS]
-    rest = [one for one in rows if one[1] is not Ended.FAILS]
-    held_back = [*fails[1::2], *rest[1::2]]
-    if len(fails) // 2 < _LEAST_HELD_BACK:
+def _from_samples(space: Space, sampled: Sequence[_Sampled], most_weight: float) -> Condition | None:
+    """From the missions of the run alone: found on some, measured on others, of which no design chose any.
+
+    Those that were plainly drawn are held back by turns. Where weighted ones were chosen, a later one depends on how
+    earlier ones ended: then the later half is held back.
+    """
+    drawn = [one for one in sampled if one[2].role is not MissionRole.DESIGNED]
+    designed = [one for one in sampled if one[2].role is MissionRole.DESIGNED]
+    fails = [one for one in drawn if one[1] is Ended.FAILS]
+    rest = [one for one in drawn if one[1] is not Ended.FAILS]
+    is_weighted = any(point.role is MissionRole.WEIGHTED for _, _, point in drawn)
+    if is_weighted:
+        seen, held_back = drawn[: len(drawn) // 2], drawn[len(drawn) // 2 :]
+    else:
+        seen, held_back = [*fails[::2], *rest[::2]], [*fails[1::2], *rest[1::2]]
+    if sum(label is Ended.FAILS for _, label, _ in held_back) < _LEAST_HELD_BACK:
         return None
-    conjunctions = _induced(space, [*fails[::2], *rest[::2]], [])
-    measured = measured_on(held_back, conjunctions) if conjunctions else None
-    return claimed(conjunctions, measured, 0, space, _share_of(rows), has_flown=False)
+    conjunctions = _induced(space, [(row, label) for row, label, _ in (*designed, *seen)], [])
+    if not conjunctions:
+        return None
+    if is_weighted:
+        weighted = [(row, label, point.weight) for row, label, point in held_back]
+        measured = weighted_on(weighted, conjunctions, most_weight)
+    else:
+        measured = measured_on([(row, label) for row, label, _ in held_back], conjunctions)
+    found = claimed(conjunctions, measured, 0, space, _share_of(sampled), has_flown=False)
+    return None if found is None else replace(found, unseen=_unseen_by(found, [one[0] for one in sampled], space))
 
 
-def _share_of(rows: Sequence[tuple[Row, Ended]]) -> float:
-    """How many of the missions of the run fail so."""
-    return sum(label is Ended.FAILS for _, label in rows) / max(len(rows), 1)
+def _share_of(sampled: Sequence[_Sampled]) -> float:
+    """How many missions fail so, as far as those of the run tell."""
+    drawn = [one for one in sampled if one[2].role is not MissionRole.DESIGNED] or sampled
+    return sum(point.weight for _, label, point in drawn if label is Ended.FAILS) / max(len(drawn), 1)
+
+
+def _unseen_by(condition: Condition, rows: Sequence[Row], space: Space) -> tuple[Unseen, ...]:
+    """Of the edges of one parameter those beside which no mission is known: between which values there is none."""
+    axes = {axis.name: axis for axis in space.parameters}
+    found = []
+    for literal in condition.single:
+        (name,) = literal.feature.parameters
+        sides: dict[bool, list[float]] = {True: [], False: []}
+        for row in rows:
+            sides[literal.holds(row) is literal.is_above].append(literal.feature.value(row))
+        if all(sides.values()):
+            below, above = max(sides[False]), min(sides[True])
+            if axes[name].has_between(below, above, _WIDE):
+                found.append(Unseen(literal.feature, below, above))
+    return tuple(dict.fromkeys(found))
 
 
 def claimed(

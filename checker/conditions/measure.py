@@ -6,9 +6,10 @@ flown as they come.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from checker.betting import betting_interval
 from checker.buckets import Bucket
 from checker.conditions.condition import Conjunction, Literal, Row, Share, holds
 from checker.conditions.flights import Ended, HasTime, Refly, forever, label_of
@@ -107,6 +108,36 @@ def measured_on(rows: Sequence[tuple[Row, Ended]], conjunctions: Sequence[Conjun
     hit = sum(label is Ended.FAILS for _, label in inside)
     failed = sum(has_failed for _, has_failed in ends)
     return Quality(_share(failed, len(inside)), _share(hit, alike), len(rows), 0, ends)
+
+
+def weighted_on(
+    rows: Sequence[tuple[Row, Ended, float]], conjunctions: Sequence[Conjunction], most_weight: float
+) -> Quality:
+    """Precision and recall on missions with weights, none above `most_weight`; intervals hold for any adaptive choice.
+
+    Each is a part of a sum of two probabilities, of which each has an interval of its own.
+    """
+    inside = [(row, label, weight) for row, label, weight in rows if holds(conjunctions, row)]
+
+    def part(kind: Callable[[bool, Ended], bool], rest: Callable[[bool, Ended], bool]) -> Share:
+        values = [
+            [weight if of(holds(conjunctions, row), label) else 0.0 for row, label, weight in rows]
+            for of in (kind, rest)
+        ]
+        confidence = 1.0 - (1.0 - _CONFIDENCE) / _SIDES
+        (low, high), (least, most) = (betting_interval(one, max(most_weight, 1.0), confidence) for one in values)
+        return Share(_part(sum(values[0]), sum(values[1])), (_part(low, most), _part(high, least)))
+
+    precision = part(
+        lambda is_inside, label: is_inside and label is not Ended.PASSES,
+        lambda is_inside, label: is_inside and label is Ended.PASSES,
+    )
+    recall = part(
+        lambda is_inside, label: is_inside and label is Ended.FAILS,
+        lambda is_inside, label: not is_inside and label is Ended.FAILS,
+    )
+    ends = tuple((row, label is not Ended.PASSES) for row, label, _ in inside)
+    return Quality(precision, recall, len(rows), 0, ends)
 
 
 def parts_that_hold(conjunctions: Sequence[Conjunction], measured: Quality) -> tuple[Conjunction, ...]:

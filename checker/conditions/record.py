@@ -4,7 +4,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from checker.conditions.condition import Condition, Extreme, Feature, Literal, Share
+from checker.conditions.condition import Condition, Extreme, Feature, Literal, Share, Unseen
 
 # By the example of a bucket its condition; or the example of the bucket that is of the same fault.
 Conditions = Mapping[int, "Condition | int | None"]
@@ -21,6 +21,7 @@ def write_condition(condition: Condition | int | None) -> str:
         "fresh": condition.fresh,
         "near": condition.near,
         "flights": condition.flights,
+        "unseen": [[*_feature(one.feature), one.below, one.above] for one in condition.unseen],
         "in_terms": [_literal(literal) for literal in condition.in_terms],
     }
     return json.dumps(data, separators=(",", ":"))
@@ -38,19 +39,27 @@ def read_condition(text: str) -> Condition | int | None:
         data["fresh"],
         data["near"],
         data["flights"],
+        tuple(Unseen(_feature_of(*feature), below, above) for *feature, below, above in data.get("unseen", ())),
         tuple(_read(literal) for literal in data["in_terms"]),
     )
 
 
 def _literal(literal: Literal) -> list[Any]:
-    feature = literal.feature
-    return [feature.monomials, feature.extreme.value, literal.is_above, literal.edge, literal.holds_at_edge]
+    return [*_feature(literal.feature), literal.is_above, literal.edge, literal.holds_at_edge]
 
 
 def _read(row: list[Any]) -> Literal:
-    monomials, extreme, is_above, edge, holds_at_edge = row
+    *feature, is_above, edge, holds_at_edge = row
+    return Literal(_feature_of(*feature), is_above, edge, holds_at_edge)
+
+
+def _feature(feature: Feature) -> list[Any]:
+    return [feature.monomials, feature.extreme.value]
+
+
+def _feature_of(monomials: list[Any], extreme: str) -> Feature:
     terms = tuple((factor, tuple((name, power) for name, power in powers)) for factor, powers in monomials)
-    return Literal(Feature(terms, Extreme(extreme)), is_above, edge, holds_at_edge)
+    return Feature(terms, Extreme(extreme))
 
 
 def _share(row: list[float]) -> Share:

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from checker.conditions.condition import Condition, Conjunction, Extreme, Feature, Literal, Share
+from checker.conditions.condition import Condition, Conjunction, Extreme, Feature, Literal, Share, Unseen
 
 
 def condition_text(condition: Condition) -> str:
@@ -31,7 +31,14 @@ def condition_evidence(condition: Condition) -> str:
         sample = f"{condition.fresh} fresh missions{near}"
     quality = f"precision {_share(condition.precision)}, recall {_share(condition.recall)} on {sample}"
     found = f"; edges found by {condition.flights} flights of the example" if condition.flights else ""
-    return f"{'partial: ' if condition.is_partial else ''}{quality}{found}"
+    unseen = "".join(f"; {_unseen_text(one)}" for one in condition.unseen)
+    return f"{'partial: ' if condition.is_partial else ''}{quality}{found}{unseen}"
+
+
+def _unseen_text(unseen: Unseen) -> str:
+    """Where an edge may lie, as nothing is known between two values."""
+    ends = f"{_plain(unseen.below)} and {_plain(unseen.above)}"
+    return f"of {_feature_text(unseen.feature)} nothing between {ends} was seen"
 
 
 def _conjunction_text(conjunction: Conjunction) -> str:
@@ -93,7 +100,17 @@ def condition_data(condition: Condition | None) -> dict[str, Any] | None:
         "recall": _share_data(condition.recall),
         "measured_on": {"missions": condition.fresh, "near": condition.near, "fresh": condition.near is not None},
         "flights": condition.flights,
+        "unseen": [_unseen_data(one) for one in condition.unseen],
         "in_terms": [literal_text(literal) for literal in condition.in_terms],
+    }
+
+
+def _unseen_data(unseen: Unseen) -> dict[str, Any]:
+    return {
+        "term": _feature_text(unseen.feature),
+        "draw": unseen.feature.extreme.value,
+        "below": unseen.below,
+        "above": unseen.above,
     }
 
 

@@ -3,7 +3,7 @@
 Sequential covering with a beam search over conjunctions (CN2: Clark and Niblett, 1989).
 """
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -89,13 +89,19 @@ def _worth(covered: _Mask, positive: _Weights, negative: _Weights, size: int) ->
     return recall - fallout - _PRICE * size, recall - 2.0 * impurity - _PRICE * size
 
 
-def sample_cuts(rows: Sequence[tuple[Row, Ended]], features: Sequence[Feature]) -> list[Literal]:
-    """The best cut of each feature between failing and passing samples. O(n log n) each."""
+def sample_cuts(
+    rows: Sequence[tuple[Row, Ended]], features: Sequence[Feature], stepped: Container[str] = ()
+) -> list[Literal]:
+    """The best cut of each feature between failing and passing samples. O(n log n) each.
+
+    Of parameters that are `stepped` it is at a value that was seen: what no mission had may be on either side.
+    """
     cuts: list[Literal] = []
     for feature in features:
         marked = sorted((feature.value(row), label is Ended.FAILS) for row, label in rows if label is not Ended.OTHER)
         fails = sum(is_failing for _, is_failing in marked)
         best = (0.0, 0.0, True)
+        is_stepped = all(name in stepped for name in feature.parameters)
         failed = passed = 0
         for (value, is_failing), (after, _) in pairwise(marked):
             failed, passed = failed + is_failing, passed + (not is_failing)
@@ -103,7 +109,10 @@ def sample_cuts(rows: Sequence[tuple[Row, Ended]], features: Sequence[Feature]) 
                 continue
             lean = failed / fails - passed / (len(marked) - fails)
             if abs(lean) > best[0]:
-                best = (abs(lean), shortest_decimal(value, after), lean < 0.0)
+                is_above = lean < 0.0
+                seen = after if is_above else value
+                edge = seen if is_stepped else shortest_decimal(value, after)
+                best = (abs(lean), edge, is_above)
         if best[0] > 0.0:
-            cuts.append(Literal(feature, best[2], best[1]))
+            cuts.append(Literal(feature, best[2], best[1], holds_at_edge=is_stepped))
     return cuts

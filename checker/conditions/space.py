@@ -60,6 +60,12 @@ class Range:
         value = self.lower + share * (self.upper - self.lower)
         return float(round(value)) if self.parameter.is_whole else value
 
+    def has_between(self, below: float, above: float, share: float) -> bool:
+        """Whether there are values between two: any where there are steps, else more than a `share` of the range."""
+        if self.choices is not None:
+            return any(below < value < above for value in self.choices)
+        return above - below > (1.0 if self.parameter.is_whole else share * self.width)
+
     def is_stepped(self) -> bool:
         """Whether between two values there need be no third."""
         return self.parameter.is_whole or self.choices is not None
