@@ -166,7 +166,7 @@ def _asking(
     program: Program,
     rule: RuleCode,
     wanted: tuple[str, str],
-    numbers: Mapping[Operand, float],
+    numbers: Mapping[Operand, float | str],
     value: float | str | None,
     taken: Container[Branch] | None,
 ) -> _Asking:
@@ -210,7 +210,7 @@ def _is_taken(within: Iterable[tuple[Guard, bool]], taken: Container[Branch]) ->
 
 
 def _sets(
-    post: Post, reached: Collection[Operand], numbers: Mapping[Operand, float], value: float | str | None
+    post: Post, reached: Collection[Operand], numbers: Mapping[Operand, float | str], value: float | str | None
 ) -> bool:
     """Whether a constraint speaks of what is reached, and does not say that it is another value than was asked for."""
     if not set(post.operands) & set(reached):
@@ -220,21 +220,16 @@ def _sets(
     return not (is_given and value is not None and others[0] != value)
 
 
-def _numbers(program: Program) -> Iterator[tuple[Operand, float]]:
-    """The global variables and constants of which one number is known."""
+def _numbers(program: Program) -> Iterator[tuple[Operand, float | str]]:
+    """The global variables and constants of which one value is known."""
     for step in program.script:
-        if isinstance(step, NewGlobal | Assign) and step.domain is not None and step.domain.interval is not None:
-            lower, upper = step.domain.interval
-            target = GlobalVariable(step.index) if isinstance(step, NewGlobal) else step.target
-            if lower == upper:
-                yield target, float(lower)
+        if isinstance(step, NewGlobal | Assign) and (value := single_value(step.domain)) is not None:
+            yield GlobalVariable(step.index) if isinstance(step, NewGlobal) else step.target, value
     for rule in program.rules:
         for each in all_instructions(rule.body):
             for one in each.operands if isinstance(each, Post) else ():
-                if isinstance(one, Constant) and one.domain.interval is not None:
-                    lower, upper = one.domain.interval
-                    if lower == upper:
-                        yield one, float(lower)
+                if isinstance(one, Constant) and (value := single_value(one.domain)) is not None:
+                    yield one, value
 
 
 def _position(program: Program, predicate: str, name: str) -> int:

@@ -30,13 +30,21 @@ BRANCHES = """if (length >= 0.0) {
     }"""
 
 
+# What they ask for is not what was asked for here, so that they did not ask.
+OTHERS = """float FAR = 777.5;
+Survey::Far { contains(Thruster.Drive drive); drive.distance == FAR; }
+Survey::Home { contains(Thruster.Drive drive); drive.distance == 10.0; }
+"""
+
+
 @pytest.mark.parametrize("asking", ["drive.distance == length + length;", BRANCHES])
 def test_the_line_of_the_planner_is_told_that_asked_a_simulator_for_too_much(asking: str) -> None:
     mission, found = read_mission(TEMPLATE / "mission.toml")
     assert mission is not None, found
     path = real_path(TEMPLATE / "planner.nddl")
     text = path.read_text()
-    overlay = ((str(path), text.replace("drive.distance == length;", asking)),)
+    others = text.replace("drive.distance == length;", asking).replace("Survey survey =", OTHERS + "Survey survey =")
+    overlay = ((str(path), others.replace("predicate Leg ", "predicate Home { } predicate Far { } predicate Leg ")),)
     models = load_models(mission, open_over(overlay))
     with open_flyer(mission, models) as flyer:
         result = flyer.fly(models.agent, 1, mission_seed(mission.check.seed, 1), partial(load_over, overlay))
@@ -50,7 +58,7 @@ def test_the_line_of_the_planner_is_told_that_asked_a_simulator_for_too_much(ask
     assert result.outcome is not None
     in_order = [models.programs[each.model] for each in models.agent.reactors]
     taken = branches_taken(in_order, result.outcome.behaviour)
-    lines = lines_that_ask(element, programs, Path(models.agent.root), {"Leg", "Drive", "Scan"}, taken)
+    lines = lines_that_ask(element, programs, Path(models.agent.root), {"Leg", "Drive", "Scan", "Far", "Home"}, taken)
     line = text[: text.index("drive.distance")].count("\n") + 1 + (asking is BRANCHES)
     assert [(one.rule, one.place.file, one.place.line) for one in lines] == [("Survey.Leg", "planner.nddl", line)]
     assert lines_that_ask(element, programs, Path(models.agent.root), ()) == ()
