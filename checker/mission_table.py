@@ -112,6 +112,7 @@ _OTHER_WORDS_ELSEWHERE = {
     **dict.fromkeys(("limit", "max", "delay", "duration"), "ticks"),
     "horizon": "lookahead",
 }
+_TRUTHS = {"true": "true", "yes": "true", "on": "true", "false": "false", "no": "false", "off": "false"}
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 _LEAST_LETTERS = 4  # of a key that can be told from others when it is misspelt
 
@@ -169,14 +170,15 @@ class Table:
         if isinstance(value, list) and all(isinstance(item, str) for item in value):
             return tuple(value)
         self._complain_of_type(key, value, "a list of texts", f'write ["{value}"]' if isinstance(value, str) else None)
-        return ()
+        return (value,) if isinstance(value, str) else ()  # what hangs on it is not told too
 
     def flag(self, key: str) -> bool:
         """A truth value, false by default."""
         value = self._take(key)
         if isinstance(value, bool):
             return value
-        self._complain_of_type(key, value, "true or false")
+        meant = _TRUTHS.get(str(value).casefold())
+        self._complain_of_type(key, value, "true or false", f"write `{meant}`, without quotes" if meant else None)
         return False
 
     def whole(self, key: str, default: int | None, minimum: int, maximum: int = _MOST_TICKS) -> int:

@@ -38,7 +38,9 @@ from nddl_lang.text.source import Source, Span
 
 _TEXT_IS_MISSING = (MISSING_FILE, UNREADABLE_FILE, TOO_DEEP, TOO_LARGE, UNCLOSED_COMMENT)
 _UNKNOWN = (UNKNOWN_NAME, UNKNOWN_TYPE, UNKNOWN_CLASS)
-_NAMELESS = re.compile(r"typedef\s+(?:int|float|bool|string)[^\w]*(?:[\d.]+[^\w]*)*;?")
+_NAMELESS = re.compile(
+    r"(?:int|float|bool|string)\s*=[^=].*|typedef\s+(?:int|float|bool|string)[^A-Za-z_$]*", re.DOTALL
+)
 _INCLUDING = frozenset(("include", "import", "using"))
 _TABLES = tuple(table.name for table in fields(SideTables))
 

@@ -53,7 +53,8 @@ def _tell_unquoted(context: Context, scope: Scope, new: NewExpr) -> None:
             continue
         name = argument.parts[0].name
         is_text = all(one.parameters[index].type.kind is Kind.STRING for one in fitting)
-        if is_text and name not in context.reported and find(context, scope, name) is None:
+        is_told = name in context.reported or scope.is_doubtful(name) or context.symbols.is_doubtful(name)
+        if is_text and not is_told and find(context, scope, name) is None:
             context.reported.add(name)
             fix = Fix(f'write `"{name}"`', (Edit(argument.span, f'"{name}"'),), safe=False)
             help_ = f'a text stands in quotes: `"{name}"`'

@@ -21,6 +21,7 @@ from nddl_lang.semantics.codes import (
     NO_BASE,
     NOT_A_MEMBER,
     SUPER_NOT_FIRST,
+    UNKNOWN_NAME,
 )
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.names import complain_unknown, complain_unknown_member, find, follow, resolve
@@ -29,6 +30,7 @@ from nddl_lang.semantics.schema import (
     Class,
     Constructor,
     Domain,
+    Kind,
     LocalReference,
     MemberReference,
     Reference,
@@ -40,6 +42,7 @@ from nddl_lang.semantics.typenames import find_declared_type
 from nddl_lang.semantics.values import check_value, constant
 from nddl_lang.syntax.nodes import Assignment, BrokenStatement, ConstructorDecl, NewExpr, PathExpr, SuperCall
 from nddl_lang.text.diagnostic import Edit, Fix, Note
+from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Span
 
 
@@ -114,6 +117,7 @@ def check_constructor(context: Context, owner: Class, node: ConstructorDecl, sco
 
 
 def _check_super(context: Context, scope: Scope, base: Class | None, node: SuperCall) -> None:
+    _tell_undeclared(context, scope, base, node)
     types = argument_types(context, scope, node.arguments)
     if base is None or (scope.own_class is not None and context.symbols.is_partial(scope.own_class)):
         return
@@ -125,6 +129,30 @@ def _check_super(context: Context, scope: Scope, base: Class | None, node: Super
     constructor = choose(context, base, node.arguments, types, node.span)
     if constructor is not None:
         context.tables.constructors[node] = Chosen(constructor)
+
+
+def _tell_undeclared(context: Context, scope: Scope, base: Class | None, node: SuperCall) -> None:
+    """Complain of a name that the constructor should have as a parameter, to judge by what that of the base takes."""
+    name = scope.own_class
+    fitting = [one for one in base.constructors if len(one.parameters) == len(node.arguments)] if base else []
+    for index, argument in enumerate(node.arguments if fitting and name is not None else ()):
+        types = {one.parameters[index].type.name: one.parameters[index].type.kind for one in fitting}
+        if (
+            not isinstance(argument, PathExpr)
+            or len(argument.parts) > 1
+            or len(types) > 1
+            or Kind.STRING in types.values()
+        ):
+            continue
+        word = argument.parts[0].name
+        is_told = word in context.reported or scope.is_doubtful(word) or context.symbols.is_doubtful(word)
+        visible = (*scope.visible(), *context.symbols.names("global", "value"))
+        is_known = is_told or find(context, scope, word) is not None or nearest(word, visible) is not None
+        if not is_known and name is not None:
+            context.reported.add(word)
+            context.symbols.put_partial(name)  # whoever makes an object may give it
+            help_ = f"declare it as a parameter: `{name}({next(iter(types))} {word})`"
+            context.complain(UNKNOWN_NAME.at(argument.span, name=word, help=help_))
 
 
 def _advise_base(context: Context, name: str, types: Sequence[Type | None]) -> str:

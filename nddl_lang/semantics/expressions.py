@@ -155,6 +155,8 @@ def _binary_type(context: Context, binary: BinaryExpr, left: Type | None, right:
                 if left is None and is_token_in(context, binary.left):
                     break  # told of the left side
                 help_, fixes = relation_meant(context, binary)
+                fixes = fixes or (number_meant(side, FLOAT) if isinstance(side, StringLiteral) else ())
+                help_ = help_ or (f"{fixes[0].title}, without quotes" if fixes else None)
                 text, found = side.span.text, phrase(type_)
                 context.complain(
                     NO_ORDER.at(

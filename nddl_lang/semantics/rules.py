@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 
 from nddl_lang.semantics.allocation import check_allocation
-from nddl_lang.semantics.codes import NOT_A_COLLECTION
+from nddl_lang.semantics.codes import NOT_A_COLLECTION, UNKNOWN_CLASS
 from nddl_lang.semantics.constraining import check_call_constraint, check_expression_constraint
 from nddl_lang.semantics.expressions import check_guard
 from nddl_lang.semantics.names import resolve_value
-from nddl_lang.semantics.schema import Kind, LocalReference, Rule, Variable
+from nddl_lang.semantics.schema import Class, Kind, LocalReference, Rule, Variable
 from nddl_lang.semantics.scope import Context, Scope, rule_scope
 from nddl_lang.semantics.tokens import check_relation, find_predicate
 from nddl_lang.semantics.typenames import find_class, find_declared_type
@@ -25,13 +25,29 @@ from nddl_lang.syntax.nodes import (
     RuleStatement,
     VariableDecl,
 )
+from nddl_lang.text.diagnostic import Edit, Fix
 
 _Block = tuple[Iterator[RuleStatement], Scope]
 
 
+def _told_turned(context: Context, node: RuleDecl) -> Class | None:
+    """The class of a rule whose class and predicate stand in the wrong order, after a complaint."""
+    symbols = context.symbols
+    owner = symbols.find_class(node.predicate.name)
+    is_turned = owner is not None and symbols.find_predicate(owner.name, node.class_name.name) is not None
+    if not is_turned or symbols.find_class(node.class_name.name) is not None or owner is None:
+        return None
+    text = f"{owner.name}::{node.class_name.name}"
+    fix = Fix(f"write `{text}`", (Edit(node.class_name.span.to(node.predicate.span), text),), safe=False)
+    help_ = f"the class stands first: `{text}`"
+    context.complain(UNKNOWN_CLASS.at(node.class_name.span, name=node.class_name.name, help=help_, fixes=(fix,)))
+    context.symbols.put_faulty(node.predicate.name)
+    return owner
+
+
 def check_rule(context: Context, node: RuleDecl) -> None:
     """Declare the rule of `node` and check its body."""
-    owner = find_class(context, node.class_name)
+    owner = _told_turned(context, node) or find_class(context, node.class_name)
     predicate = find_predicate(context, owner, node.predicate) if owner is not None else None
     if predicate is None:
         return

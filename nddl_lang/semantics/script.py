@@ -1,5 +1,7 @@
 """Check the statements of the script that act on what is declared: tokens, assignments, allocations."""
 
+from dataclasses import replace
+
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.allocation import check_allocation
 from nddl_lang.semantics.codes import DUPLICATE_OBJECT, LEAVES_DOMAIN, NOT_A_VARIABLE
@@ -29,6 +31,7 @@ from nddl_lang.syntax.nodes import (
     FloatLiteral,
     GoalStatement,
     Instance,
+    IntervalExpr,
     IntLiteral,
     NewExpr,
     PathExpr,
@@ -36,6 +39,8 @@ from nddl_lang.syntax.nodes import (
     StringLiteral,
     VariableDecl,
 )
+from nddl_lang.text.diagnostic import Edit, Fix
+from nddl_lang.text.source import Span
 
 _GOAL_STATES = ("ACTIVE", "MERGED")
 _REJECTABLE_STATES = (*_GOAL_STATES, "REJECTED")
@@ -70,7 +75,7 @@ def check_assignment(context: Context, node: Assignment) -> None:
         check_allocation(context, scope, node.value)
         if isinstance(reference, GlobalReference):
             _note_object(context, reference.variable.name, node)
-    type_ = _target_type(context, node.target, reference)
+    type_ = _target_type(context, node.target, reference, _evident_type(node))
     if type_ is None or check_value(context, scope, node.value, type_, node.target.span.text) is None:
         return
     left = check_domain(context, node.target, type_, node.value)
@@ -88,6 +93,8 @@ def _evident_type(node: Assignment) -> str | None:
     match node.value:
         case NewExpr(class_name=name):
             return name.name
+        case IntervalExpr(lower=lower, upper=upper):
+            return "float" if "." in f"{lower.span.text}{upper.span.text}" else "int"
         case IntLiteral():
             return "int"
         case FloatLiteral():
@@ -100,8 +107,10 @@ def _evident_type(node: Assignment) -> str | None:
             return None
 
 
-def _target_type(context: Context, target: PathExpr, reference: Reference | None) -> Type | None:
-    """The type of the variable that `reference` denotes; a complaint where it is no variable."""
+def _target_type(
+    context: Context, target: PathExpr, reference: Reference | None, type_name: str | None = None
+) -> Type | None:
+    """The type of the variable that `reference` denotes; a complaint where it is none. `type_name`: of what it gets."""
     if reference is None:
         return None
     match reference:
@@ -113,7 +122,13 @@ def _target_type(context: Context, target: PathExpr, reference: Reference | None
             what = "an enum value"
         case _:
             return reference_type(reference, None)
-    context.complain(NOT_A_VARIABLE.at(target.span, name=target.span.text, what=what))
+    complaint = NOT_A_VARIABLE.at(target.span, name=target.span.text, what=what)
+    if type_name is not None and isinstance(reference, ClassReference) and reference.name == type_name:
+        name = reference.name[0].lower() + reference.name[1:]
+        after = Span(target.span.anchor, target.span.end, target.span.end)
+        fix = Fix(f"write `{type_name} {name}`", (Edit(after, f" {name}"),), safe=False)
+        complaint = replace(complaint, help=f"give the object a name: `{type_name} {name} = ...`", fixes=(fix,))
+    context.complain(complaint)
     return None
 
 

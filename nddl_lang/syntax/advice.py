@@ -24,6 +24,7 @@ _OPERATORS = {
 }
 _OF_EXPRESSIONS = frozenset((".", "<", "<=", ">", ">=", "!=", "+", "*", "/"))
 _OPERANDS = frozenset(("IDENT", "this", "INT", "FLOAT", "STRING", "BOOL", "(", "-", "!", "SET", "["))
+_OPERATORS_BEFORE = frozenset(("==", "!=", "<", "<=", ">", ">=", "+", "-", "*", "/", "="))
 _ENDS_CONDITION = frozenset((")", ";", "&&", "||"))
 _CONTRARIES = {"==": "!=", "!=": "==", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
 _LOOPS = ("for", "repeat", "until", "while")
@@ -140,6 +141,8 @@ def _advise_anywhere(kinds: list[str], texts: list[str], first: int, index: int)
         return "write `==` for a constraint, or `=` to give a variable its value"
     if kind == "," and before == "INT" and kinds[index + 1] == "INT":
         return f"numbers have a decimal point: `{texts[index - 1]}.{texts[index + 1]}`"
+    if kind == "IDENT" and before == "IDENT" and kinds[index - 2] in _OPERATORS_BEFORE and index - 2 > first:
+        return f"the argument of a function stands in parentheses: `{texts[index - 1]}({texts[index]})`"
     if kind == "IDENT" and before in ("INT", "FLOAT"):
         return f"a number has no unit; a product is written `{texts[index - 1]} * {texts[index]}`"
     if kind == "}" and before == "SET":

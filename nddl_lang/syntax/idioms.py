@@ -108,7 +108,7 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
     ),
     (rf"(.*)\b({_N}) \. new \((.*)", r"an object is made by `new \2(...)`", r"\1new \2(\3"),
     (
-        rf"(.*(?:=|in|==)) \( ({_NUMBER}) , ({_NUMBER}) \) ;",
+        rf"(.*(?:=|in|==)) \( ({_NUMBER}) ,? ?({_NUMBER}) \) ;",
         r"an interval is written `[\2 \3]`",
         r"\1 [\2 \3];",
     ),
@@ -116,6 +116,17 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
         rf"(.*(?:=|in|==)) (?:\[ )?({_NUMBER}) (?:to|\. \.|\. \. \.|-|:|;) ({_NUMBER}) (?:\] )?;",
         r"an interval is written `[\2 \3]`",
         r"\1 [\2 \3];",
+    ),
+    (
+        rf"(.*(?:=|in|==)) ({_NUMBER}) ({_NUMBER}) ;",
+        r"an interval is written `[\2 \3]`",
+        r"\1 [\2 \3];",
+    ),
+    (rf"({_TYPE}) = (.*) ;", r"a variable has a name: `\1 name = \2;`", ""),
+    (
+        rf"({_ASKS}) ({_PATH}) \( ({_N}) \) ;",
+        r"the token is named so: `\1(\2 \3);`",
+        r"\1(\2 \3);",
     ),
     (
         rf"typedef ({_TYPE}) (?:\( )?({_NUMBER}) (?:to |\. \. |\. \. \. |- |: |, )?({_NUMBER}) (?:\) )?({_N}) ;",
@@ -141,6 +152,11 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
         rf"({_N} |)({_RELATION}) \( ({_NUMBER}) ,? ?({_NUMBER}) \) (\(.*) ;",
         r"the bounds of a distance stand in brackets: `\1\2 [\3 \4] \5;`",
         r"\1\2 [\3 \4] \5;",
+    ),
+    (
+        rf"[^?]* ({_PATH}|{_NUMBER}) : ({_PATH}|{_NUMBER}) ;",
+        r"a quotient is written `\1 / \2`; a message behind `:` stands in quotes",
+        "",
     ),
     (rf"enum {_N} \{{? ?.*=.*", "an enum lists names, without numbers: `enum E { a, b }`", ""),
     (

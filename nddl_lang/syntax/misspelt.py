@@ -11,6 +11,7 @@ _WORDS = tuple(word for word in KINDS if word not in FORMER)
 _SHORT = 3
 _TIMES = {"starts": "start", "ends": "end"}
 _COMPARES = frozenset(("==", "!=", "<", "<=", ">", ">="))
+_BEFORE_TIME = _COMPARES | {".", "+", "-", "*", "/"}
 _REMEMBERED = 256  # answers: one mistake may stand in thousands of lines
 
 
@@ -21,7 +22,11 @@ def meant_time(kinds: list[str], texts: list[str], first: int, index: int) -> tu
     """
     for at in (index, index - 1):
         time = _TIMES.get(texts[at]) if first <= at < len(texts) else None
-        if time is not None and kinds[at] == "RELATION" and (kinds[at - 1 : at] == ["."] or kinds[at + 1] in _COMPARES):
+        if (
+            time is not None
+            and kinds[at] == "RELATION"
+            and (kinds[at - 1] in _BEFORE_TIME or kinds[at + 1] in _COMPARES)
+        ):
             return at, time
     return None
 

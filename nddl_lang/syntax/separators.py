@@ -102,12 +102,12 @@ def _opens_block(piece: Piece, brackets: Brackets, text: str, base: int, start: 
 def _closes_block(piece: Piece, kind: str, text: str, base: int, start: int) -> bool:
     """Whether the `)` or `]` at `start`, with no partner in its block, stands for the `}` of that block.
 
-    It stands alone in its line, as deep as the line in which the block begins, and behind a whole statement; no `}`
-    follows there.
+    It ends the one line of the block, or stands alone in its line, as deep as that in which the block begins, and
+    behind a whole statement; no `}` follows there.
     """
     kinds = piece.kinds
     before = text[text.rfind("\n", 0, start) + 1 : start]
-    if kinds[-1:] not in ([";"], ["}"], ["{"]) or before.strip():
+    if kinds[-1:] not in ([";"], ["}"], ["{"]):
         return False
     following = _BEHIND.match(text, start + 1)
     assert following is not None
@@ -116,7 +116,9 @@ def _closes_block(piece: Piece, kind: str, text: str, base: int, start: int) -> 
     line = text.rfind("\n", 0, piece.starts[opener]) + 1
     head = text[line : piece.starts[opener]]
     is_closed_again = following[3] is not None and following[2].rpartition("\n")[2] == before
-    if following[1] is None or line < base or is_closed_again or before != head[: len(head) - len(head.lstrip(" \t"))]:
+    is_one_line = "\n" not in text[piece.starts[opener] : start]
+    is_aligned = before == head[: len(head) - len(head.lstrip(" \t"))] and not is_closed_again
+    if following[1] is None or line < base or not (is_one_line or is_aligned):
         return False
     at = start - base
     fix = Fix("write `}`", (Edit(piece.span(at, at + 1), "}"),))

@@ -18,7 +18,7 @@ _TURNED = {
     ("!=", "="): "!=",
 }
 _EQUAL = ("equal", "equals")
-_PARTED = {("<", "="): "<=", (">", "="): ">=", ("!", "="): "!=", ("=", "="): "=="}  # by blanks
+_PARTED = {("<", "="): "<=", (">", "="): ">=", ("!", "="): "!=", ("=", "="): "==", (":", ":"): "::"}  # by blanks
 
 
 def turn_signs(b: Builder, first: int, index: int, *, is_quiet: bool) -> bool:
