@@ -20,7 +20,8 @@ from checker.mission import LARGEST_SEED
 from checker.one_flight import Flight, FlightSettings, fly, trace_text
 from checker.oracle import Verdict
 from checker.real_time import RealTimeClock
-from checker.rendering import failure_text
+from checker.rendering import failure_text, waiting_text
+from checker.waiting import waited_for
 from nddlc.fitting import columns, say
 from nddlc.inputs import STORE, mission_here, write_text
 from nddlc.main import named
@@ -153,6 +154,7 @@ def _report(agent: AgentConfiguration, flight: Flight) -> str:
         why = "the plan put it before tick 0; say that it starts at 0 or later"
         lines.append(f"  never carried out: {predicate} on `{timeline}`, asked for by {asker}: {why}\n")
     lines += [f"  open: {goal_text(goal)}{_so_far(goal, outcome.events)}\n" for goal in outcome.open_goals]
+    lines += [f"  waits: {waiting_text(one)}\n" for one in waited_for(outcome, agent) if one.sender]
     if judgement.verdict is not Verdict.PASS:
         excerpts = Excerpts(Path(agent.root))
         ruled_out = goals_ruled_out(outcome) if outcome.abort is None else []

@@ -354,7 +354,7 @@ class Machine:
                 if present.changed >> out & 1 or present.state[DUE * n + out] >= 0:
                     return False
                 if present.state[PREDICATE * n + out] >= 0 and not present.state[ENDING * n + out]:
-                    if not present.end_with(out, 0):
+                    if not present.end_with(out):
                         return False
                 self.start(out, a)
                 self.log.note(present.now, out, a, -1 - self.root_row)

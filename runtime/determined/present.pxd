@@ -21,7 +21,7 @@ cdef class Present:
 
     cpdef bint begin_tick(self, long long tick) except -1
 
-    cpdef bint end_with(self, long long i, long long first) except -1
+    cpdef bint end_with(self, long long i) except -1
 
     cpdef bint is_kept(self, long long at) except -1
 

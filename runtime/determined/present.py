@@ -158,19 +158,19 @@ class Present:
         for i in range(n):
             if self.state[PREDICATE * n + i] >= 0 and not self.state[ENDING * n + i]:
                 most = self.state[MOST * n + self.state[SLOT * n + i]]
-                if most < tick or (most == tick and not self.end_with(i, 0)):
+                if most < tick or (most == tick and not self.end_with(i)):
                     return False
         for i in range(n):
             if self.state[WISH * n + i] >= 0 and self.state[WISH_FROM * n + i] <= tick:
                 if self.state[WISH_UNTIL * n + i] < tick:
                     return False
-                if self.state[PREDICATE * n + i] >= 0 and not self.state[ENDING * n + i] and not self.end_with(i, i):
+                if self.state[PREDICATE * n + i] >= 0 and not self.state[ENDING * n + i] and not self.end_with(i):
                     if self.is_used[i]:
                         return False
         return True
 
-    def end_with(self, i: int, first: int) -> bool:
-        """End the token of a timeline now, with all that must end with it, none before `first`; false if it cannot."""
+    def end_with(self, i: int) -> bool:
+        """End the token of a timeline now, with all that must end with it; false if it cannot."""
         n = self.lines
         # What has started at this tick (2) neither ends nor has others end.
         for j in range(n):
@@ -201,7 +201,7 @@ class Present:
                     grows = True
         for j in range(n):
             if self.flags[j] == 1 and not self.state[ENDING * n + j] and self.state[PREDICATE * n + j] >= 0:
-                if j < first or self.state[LEAST * n + self.state[SLOT * n + j]] > self.now:
+                if self.state[LEAST * n + self.state[SLOT * n + j]] > self.now:
                     return False
                 # Unless another reactor has published something there now.
                 if self.is_used[j] and (self.state[WISH * n + j] < 0 or self.state[WISH_FROM * n + j] != self.now):

@@ -80,7 +80,7 @@ class _Search:
         self.asked = asked
         self.timelines = timelines
         self.lines = [line for line in timelines if not line.is_internal and line.news is not None]
-        self.lines += [line for line in timelines if line.is_internal]
+        self.lines += sorted([line for line in timelines if line.is_internal], key=self._rank)
         self.made: list[int] = []
         self.first: SyncFailure | None = None
         self.first_depth = NOTHING
@@ -164,6 +164,13 @@ class _Search:
         self.bench.rewind_to(marks[len(marks) - 1])
         return True
 
+    def _rank(self, line: TimelineState) -> tuple[int, int]:
+        """What begins as soon as it may comes first, what was asked for before the rest: nothing goes on in its way."""
+        bench, token = self.bench, self.bench.next_of(line.object_id, line.current)
+        if token < 0 or not self._may_start(token):
+            return 2, 0
+        return (0, bench.key(token)) if bench.is_requested(token) else (2 - line.is_early, 0)
+
     def choices(self, line: TimelineState) -> list[_Choice]:
         """What may hold on `line` now, best first (T-REX 1.4)."""
         bench, tick, current = self.bench, self.tick, line.current
@@ -186,7 +193,10 @@ class _Search:
         is_asked = bool(starts) and bench.is_requested(token)
         if not is_asked:
             forced = bench.must_begin(line.object_id, tick)
-            starts = [(_NEXT, each, NOTHING) for each in forced] + starts
+            undecided = [(_NEXT, each, NOTHING) for each in forced]
+            # What is planned next may be what must begin: both are one token then.
+            is_one = bool(starts and forced) and bench.predicate_of(token) == bench.predicate_of(forced[0])
+            starts = starts + undecided if is_one and not bench.is_fact(forced[0]) else undecided + starts
             is_asked = bool(forced) and bench.is_requested(forced[0])
         if is_asked and self.is_last:
             starts = []  # what can begin at the end at the earliest is not begun
