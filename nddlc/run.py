@@ -130,10 +130,11 @@ def _report(agent: AgentConfiguration, flight: Flight) -> str:
     events = single_events(outcome.events)
     lines += [_told(alike) for alike in sorts_of(event for event in events if event.kind in _TOLD)]
     counts = Counter(event.kind for event in events)
-    done = sum(event.kind is EventKind.ACHIEVED and (event.request or 0) < 0 for event in events)
+    achieved = [event.request for event in events if event.kind is EventKind.ACHIEVED]
+    done = sum(number is None or number < 0 for number in achieved)  # without a number: wanted by a model's script
     asked = sum(event.kind is EventKind.REQUEST and (event.request or 0) >= 0 for event in events)
-    met = {event.request for event in events if event.kind is EventKind.ACHIEVED}
-    back = len({event.request for event in events if event.kind is EventKind.REJECT} & met)
+    rejected = {event.request for event in events if event.kind is EventKind.REJECT and event.request is not None}
+    back = len(rejected & set(achieved))
     lines.append(
         f"{name}, seed {flight.settings.seed}: {judgement.verdict.value}"
         f"{f' {judgement.code}' if judgement.code else ''} at tick {outcome.last_tick}\n"
@@ -146,7 +147,7 @@ def _report(agent: AgentConfiguration, flight: Flight) -> str:
         f"refused {counts[EventKind.REFUSE]}, recalled {counts[EventKind.RECALL]}; repairs {counts[EventKind.RELAX]}\n"
     )
     if outcome.abort is None and outcome.last_tick < agent.final_tick:
-        awaited = len(agent.goals) - done - len(outcome.open_goals)
+        awaited = len(agent.goals) - (done - achieved.count(None)) - len(outcome.open_goals)
         goals = f"; {awaited} of its goals may still be achieved" if awaited > 0 else ""
         cut = f"flown to tick {outcome.last_tick} only, and judged as far"
         lines.append(f"  {cut}: the mission ends at {agent.final_tick}{goals}\n")

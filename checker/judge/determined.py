@@ -16,7 +16,7 @@ class Determined:
 
     def __init__(self, post: Post, names: VariableNames) -> None:
         self.owners = [_owner(operand, names) for operand in post.operands]
-        self.tokens = [operand.token if isinstance(operand, TokenVariable) else 0 for operand in post.operands]
+        self.tokens = [operand.token if isinstance(operand, TokenVariable) else -1 for operand in post.operands]
         self.slots = [operand.slot if isinstance(operand, LocalVariable) else -1 for operand in post.operands]
         self.solvers = [solver(post.name, k, len(post.operands)) for k in range(len(post.operands))]
         self.is_equality = post.name in _EQUALITIES
@@ -48,7 +48,9 @@ class Determined:
         k = unfixed[0]
         if isinstance(values[k], PartRange):
             return False
-        if self.owners[k] == _CHILD:
+        if self.owners[k] == _CHILD or (
+            frame.tok is None and self.tokens[k] >= 0
+        ):  # the script has no token of its own
             return frame.tokens[self.tokens[k]] is not None
         return self.owners[k] == _OWN and _CHILD not in self.owners
 

@@ -11,6 +11,7 @@ from runtime.executive.timelines import NOTHING, Goal, TimelineState
 from runtime.executive.told_on import asked_in, watched_in
 from runtime.executive.trace import Trace
 from runtime.executive.view import SPAN_REQUEST
+from runtime.executive.wishes import Wishes
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import INFINITY
 
@@ -37,7 +38,7 @@ class Goals:
         self.lines = {line.name: line for line in timelines}
         self.waiting: list[Request] = []
         self.posted: list[Goal] = []
-        self.written = [(token, bench.key(token)) for token in bench.adopt_script()]  # in the model: nobody is told
+        self.wishes = Wishes(name, bench, trace)
         self.to_recall: list[int] = []
         self.refusals: list[Refusal] = []
         self.lacking: list[Refusal] = []  # of what is over
@@ -241,7 +242,7 @@ class Goals:
 
     def next_expiry(self) -> float:
         """The first tick at which a goal that is rejected can begin no more, and does not come back."""
-        found: float = INFINITY
+        found: float = self.wishes.next_expiry() if self.wishes.open else INFINITY
         for goal in self.posted:
             if goal.is_rejected and self._may_come_back(goal):
                 found = min(found, self.bench.upper(self.bench.start(goal.token)))
@@ -333,9 +334,8 @@ class Goals:
                 goal.is_closed = True
                 self._drop(goal, ReasonKind.TOO_LATE, tick)
                 late.append(token)
-        for token, key in self.written:
-            if self.bench.is_alive(token, key) and self.bench.is_missed(token, tick):
-                late.append(token)
+        if self.wishes.open:
+            late += self.wishes.close(tick)
         if late:
             self._take_away(late)
         if len(self.posted) > 64:

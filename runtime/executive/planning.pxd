@@ -2,6 +2,7 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
+from runtime.executive.planning_table cimport LeftOut
 from runtime.executive.workbench cimport Workbench
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport Rows
@@ -16,13 +17,16 @@ cdef long long _MOST_STEPS, _NEVER, _NO_LIMIT, PLAN, ROLE_LOCAL, ROLE_TOKEN, SPA
 cdef class _Window(PlanningScope):
     cdef public dict undrawn
     cdef public Workbench bench
+    cdef public LeftOut left_out
     cdef public long long tick, end, final
     cdef public bint is_present, is_reactive
     cdef public set ignored, observed
     cdef public list left_open
 
-    @cython.locals(bench=Workbench, earliest=double, start="long long")
     cpdef bint admits_token(self, long long t) except -1
+
+    @cython.locals(bench=Workbench, earliest=double, start="long long")
+    cpdef bint _is_in_scope(self, long long t) except -1
 
     cpdef bint _waits_behind(self, long long t) except -1
 

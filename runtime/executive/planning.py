@@ -1,10 +1,10 @@
 """Let a reactor's solver plan ahead, or resolve the flaws of the present, each within its window of time."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
 from nddl_lang.text.source import Span
 from runtime.executive.outcome import Conflict, Deadlock, Reason, ReasonKind
+from runtime.executive.planning_table import LeftOut, plans_ahead, within_window
 from runtime.executive.story import SearchLog, conflict_of
 from runtime.executive.view import SPAN_CLOCK
 from runtime.executive.workbench import Workbench
@@ -22,7 +22,7 @@ from runtime.plan.tags import (
     ROLE_LOCAL,
     ROLE_TOKEN,
 )
-from runtime.solver.configuration.configuration import Configuration, FlawFilter, Match, default_configuration
+from runtime.solver.configuration.configuration import Configuration, default_configuration
 from runtime.solver.flaws.filters import PlanningScope
 from runtime.solver.search import Solver
 from runtime.solver.tags import EXHAUSTED, PLAN
@@ -32,10 +32,6 @@ _NEVER = -1
 _MOST_STEPS = 1_000_000  # decisions about one present that the engine makes, if nobody sets a limit
 _DEEPEST = 20_000  # decisions in force at once in one episode, if nobody sets a limit
 _MOST_CHANGES = 2**24  # of the plan that can be undone: half a gigabyte; missions of 30,000 ticks have some 2**12
-_TIMES = (
-    *[Match(variable=name) for name in ("start", "end", "duration")],
-    *[Match(class_name=owner, variable="time") for owner in ("Resource", "Reservoir")],
-)
 _MOST_EXPLAINED = 2_000  # decisions of a search that is repeated to find out why it failed
 _EXPLAINING = 2.0  # seconds for one that had no end
 
@@ -53,7 +49,7 @@ class _Window(PlanningScope):
     begin to hold is decided when the time comes, by what holds then.
     """
 
-    def __init__(self, bench: Workbench) -> None:
+    def __init__(self, bench: Workbench, left_out: LeftOut) -> None:
         self.bench = bench
         self.tick = 0
         self.end = 0
@@ -63,10 +59,15 @@ class _Window(PlanningScope):
         self.observed: set[int] = set()  # timelines of others of whom nothing is asked
         self.left_open: list[int] = []  # arguments of what is to be observed there, of any value so far
         self.undrawn: dict[int, int] = {}  # the keys of tokens, by number, for which nothing is drawn yet
+        self.left_out = left_out
         self.ignored = {o for o in range(len(bench.database.objects.names)) if bench.mode(o) == "Ignore"}
 
     def admits_token(self, t: int) -> bool:
         """Whether flaws of `t` are to be mended now."""
+        return self._is_in_scope(t) and (self.is_present or self.left_out.is_empty or not self.left_out.has(t))
+
+    def _is_in_scope(self, t: int) -> bool:
+        """Whether `t`, and its variables, belong to what is to be mended now."""
         bench = self.bench
         start = bench.start(t)
         if self.ignored and bench.object_of(t) in self.ignored:
@@ -152,7 +153,7 @@ class _Window(PlanningScope):
         plan = self.bench.plan
         if plan.variable_role[v] in (ROLE_TOKEN, ROLE_LOCAL):
             t = int(plan.variable_owner[v])
-            if (self.undrawn and self._awaits_draw(t)) or not self.admits_token(t):
+            if (self.undrawn and self._awaits_draw(t)) or not self._is_in_scope(t):
                 return False
             if self.observed and self.bench.object_of(t) in self.observed and self._is_free(v):
                 self.left_open.append(v)
@@ -210,13 +211,13 @@ class Planner:
         max_depth: int | None = None,
     ) -> None:
         self.bench = bench
-        self.window = _Window(bench)
-        self.window.final = final_tick
-        self.plans_ahead = not any(_is_of_all(each) for each in configuration.filters)
+        self.plans_ahead = plans_ahead(configuration)
         if not self.plans_ahead:
             configuration = default_configuration()
+        self.window = _Window(bench, LeftOut(bench, configuration))
+        self.window.final = final_tick
         bench.engine.trail_most = _MOST_CHANGES
-        self.solver = Solver(bench.database, _within_window(configuration), 0, 1, False)
+        self.solver = Solver(bench.database, within_window(configuration), 0, 1, False)
         self.solver.set_scope(self.window)
         self.solver.agenda.earliest = True
         self.max_steps = max_steps
@@ -361,29 +362,3 @@ class Planner:
             bench.release(mark)
             return Reason(ReasonKind.NO_INSERTION, bench.name_of(t)), conflict
         return Reason(ReasonKind.NO_PLAN), None
-
-
-def _within_window(configuration: Configuration) -> Configuration:
-    """The configuration as a reactor has it: the window replaces the horizon that it may filter by.
-
-    Times are left to the execution, but for those that a handler names.
-    """
-    managers = []
-    for each in configuration.managers:
-        filters = _without_horizon(each.filters)
-        if each.component == "UnboundVariableManager":
-            named = {handler.match.variable for handler in each.handlers}
-            filters += tuple([FlawFilter(match=match) for match in _TIMES if match.variable not in named])
-        managers.append(replace(each, filters=filters))
-    clock = FlawFilter(match=Match(variable="AGENT_CLOCK"))
-    filters = (*_without_horizon(configuration.filters), clock)
-    return replace(configuration, filters=filters, managers=tuple(managers))
-
-
-def _is_of_all(one: FlawFilter) -> bool:
-    """Whether a filter leaves out everything: it has no component of its own, and names at most the root of classes."""
-    return one.component == "FlawFilter" and one.match in (Match(), Match(class_name="Object"))
-
-
-def _without_horizon(filters: tuple[FlawFilter, ...]) -> tuple[FlawFilter, ...]:
-    return tuple([each for each in filters if each.component != "HorizonFilter"])

@@ -180,9 +180,9 @@ class Workbench(PlanView):
         return self._make(predicate, o, FLAG_GOAL | FLAG_REJECTABLE, SPAN_REQUEST)
 
     def adopt_script(self) -> list[int]:
-        """Let what the script states hold, and what it wants begin, in the mission, not before; what may be given up.
+        """Let what the script states hold, and what it wants begin, in the mission, not before; what it wants.
 
-        What it wants is asked for.
+        That is asked for.
         """
         found: list[int] = []
         for t in self.all_tokens():
@@ -197,7 +197,6 @@ class Workbench(PlanView):
             if is_wanted:
                 self.rows.flags[t] = flags | FLAG_GOAL
                 self.remember_request(t)
-            if flags & FLAG_REJECTABLE:
                 found.append(t)
         return found
 

@@ -1,8 +1,10 @@
 """Facts and goals that a model's own script states: what holds at first, and what is wanted of this mission."""
 
+from dataclasses import replace
+
 import pytest
 
-from runtime.solver.configuration.configuration import Configuration, FlawFilter, Match
+from runtime.solver.configuration.configuration import Configuration, FlawFilter, Match, default_configuration
 from tests.executive.flying import flown, fly, history, lines, planner, simulator
 
 KILN = """
@@ -76,3 +78,50 @@ def test_who_leaves_out_every_flaw_plans_nothing_and_settles_what_holds() -> Non
         mission = flown(planner("works", text, "kiln"), solver=solver)
         assert history(mission.outcome, "kiln") == ["0 Cold", "2 Warm", "5 Cold", "7 Warm", "10 Cold"]
         assert mission.report.disagreements == ()
+
+
+FAN = """
+class Fan extends AgentTimeline { predicate Off { } predicate On { } Fan(Mode m) { super(m, "Off"); } }
+Kiln::Hot { duration == 4; starts(Fan.On f); }
+Kiln kiln = new Kiln(Internal); Fan fan = new Fan(Internal); close();
+"""
+BOTH = f"{KILN.partition('Kiln kiln')[0]}{FAN}"
+
+
+def leaving_out(match: Match, component: str = "") -> Configuration:
+    """The default table with a filter of tokens; of one manager, or of all."""
+    found, one = default_configuration(), FlawFilter(match=match)
+    if not component:
+        return replace(found, filters=(*found.filters, one))
+    managers = [
+        replace(each, filters=(*each.filters, one)) if each.component == component else each for each in found.managers
+    ]
+    return replace(found, managers=tuple(managers))
+
+
+@pytest.mark.parametrize("lookahead", [1, 20])
+@pytest.mark.parametrize("component", ["", "OpenConditionManager"])
+@pytest.mark.parametrize("match", [Match(class_name="Fan"), Match(predicate="On"), Match(parent_predicate="Kiln.Hot")])
+@pytest.mark.parametrize("word", ["fact", "rejectable"])
+def test_what_is_not_planned_is_settled_when_it_holds(word: str, match: Match, component: str, lookahead: int) -> None:
+    text = f"{BOTH} {word}(kiln.Hot h); h.heat == 3; h.start == 4;"
+    mission = flown(planner("works", text, "kiln fan", lookahead=lookahead), solver=leaving_out(match, component))
+    assert history(mission.outcome, "kiln") == ["0 Cold", "4 Hot(heat=3)", "8 Cold"]
+    assert history(mission.outcome, "fan") == ["0 Off", "4 On"]
+    assert mission.report.disagreements == ()
+
+
+def test_a_wish_that_is_not_to_be_planned_is_given_up() -> None:
+    text = f"{BOTH} rejectable(kiln.Hot h); h.heat == 3; h.start == 4;"
+    mission = flown(planner("works", text, "kiln fan", lookahead=20), solver=leaving_out(Match(class_name="Kiln")))
+    assert history(mission.outcome, "kiln") == ["0 Cold"]
+    assert mission.report.disagreements == ()
+
+
+@pytest.mark.parametrize("lookahead", [1, 20])
+def test_of_two_wishes_at_once_one_is_done_and_the_other_given_up_and_both_are_told(lookahead: int) -> None:
+    wishes = "rejectable(kiln.Hot g); g.heat == 2; g.start == 5; rejectable(kiln.Hot h); h.heat == 3; h.start == 4;"
+    mission = flown(planner("works", f"{BOTH} {wishes}", "kiln fan", lookahead=lookahead))
+    assert lines(mission.outcome, "reject") == ["5 reject works kiln Hot(heat=2): the planner found no place for it"]
+    assert lines(mission.outcome, "achieved") == ["8 achieved works kiln Hot(heat=3)"]
+    assert mission.report.disagreements == ()
