@@ -7,6 +7,7 @@
       Task::Do { equals(Arm.Act a); }            its model; classes, timelines and `close()` are written by themselves
     | resources                                  solvers order what uses resources
     | priority Job.Halt Job.Make                 solvers decide these first, in this order
+                                                 `, then order`: and order tokens last
     | goal task.Do(n=1) start 5..9 mandatory     also end, duration, at, recall
     = PASS @30                                   verdict, code, last tick
     = task: 0 Idle, 5..6 Do(1), 10 Idle ?        all that is observed there; `?`: may be missing
@@ -32,6 +33,7 @@ from runtime.solver.configuration.configuration import (
     Match,
     default_configuration,
 )
+from runtime.solver.tags import WORST_PRIORITY
 from tests.executive.flying import Flyer, planner
 
 CLASSES = {
@@ -109,7 +111,8 @@ def read(lines: list[str], others: dict[str, Variation]) -> Variation:
         elif line.startswith("| resources"):
             one.solver = RESOURCES
         elif line.startswith("| priority "):
-            one.solver = prioritised(said.split()[1:])
+            first, _, last = said.partition(", then ")
+            one.solver = prioritised(first.split()[1:], last == "order")
         elif line.startswith("| goal "):
             goals.append(goal_of(said[5:]))
         elif line.startswith("| draw "):
@@ -168,19 +171,20 @@ def written(model: str, lines: list[tuple[str, str]]) -> str:
     return "\n".join([*text, "close();", script])
 
 
-def prioritised(predicates: list[str]) -> Configuration:
-    """A table that has tokens of some predicates decided before all else, in this order."""
-    handlers = tuple(
-        FlawHandler("StandardOpenConditionHandler", Match(predicate=predicate), priority=number)
-        for number, predicate in enumerate(predicates, 1)
-    )
-    managers = default_configuration().managers
-    return replace(
-        default_configuration(),
-        managers=tuple(
-            replace(each, handlers=handlers) if each.component == "OpenConditionManager" else each for each in managers
-        ),
-    )
+def prioritised(predicates: list[str], orders_last: bool) -> Configuration:
+    """A table that has tokens of some predicates decided before all else, in this order; tokens are ordered before or
+    behind all that."""
+    given = {
+        "OpenConditionManager": tuple(
+            FlawHandler("StandardOpenConditionHandler", Match(predicate=predicate), priority=number)
+            for number, predicate in enumerate(predicates, 1)
+        )
+    }
+    if orders_last:
+        given["ThreatManager"] = (FlawHandler("StandardThreatHandler", priority=WORST_PRIORITY),)
+    found = default_configuration()
+    managers = tuple(replace(each, handlers=given.get(each.component, each.handlers)) for each in found.managers)
+    return replace(found, managers=managers)
 
 
 def bounds_of(said: str) -> Bounds:
