@@ -214,6 +214,8 @@ agents: build
 second: build
 	$(BIN)/python -m tests.executive.second.campaign $(AGENTS)
 	$(BIN)/python -m tests.executive.second.campaign $(AGENTS) --turns
+	$(BIN)/python -m tests.executive.second.campaign $(AGENTS) --windows
+	$(BIN)/python -m tests.executive.second.campaign $(AGENTS) --priorities
 	NDDLC_CASES=all $(PYTEST) tests/executive/test_second.py
 
 renames: build

@@ -8,7 +8,7 @@ import pytest
 
 from tests.executive.second.comparing import differences
 from tests.executive.second.description import Description
-from tests.executive.second.generator import following_mission, random_mission
+from tests.executive.second.generator import following_mission, prioritised_mission, random_mission, windowed_mission
 from tests.executive.second.reading import OutsideTheFamilyError, described
 
 CASES = sorted(path.parent for path in Path(__file__).parent.glob("cases/*/mission.toml"))
@@ -31,6 +31,16 @@ def test_random_missions_fly_as_the_second_agent_has_them(first: int) -> None:
 @pytest.mark.parametrize("first", range(0, 60, 20))
 def test_what_only_follows_is_asked_for_as_the_second_agent_has_it(first: int) -> None:
     assert _without_choice(following_mission, range(first, first + 20)) >= 5
+
+
+@pytest.mark.parametrize("first", range(0, 40, 20))
+def test_what_waits_for_its_owner_begins_as_the_second_agent_has_it(first: int) -> None:
+    assert _without_choice(windowed_mission, range(first, first + 20)) >= 5
+
+
+@pytest.mark.parametrize("first", range(0, 40, 20))
+def test_who_is_decided_first_by_the_table_is_so_in_the_second_agent(first: int) -> None:
+    assert _without_choice(prioritised_mission, range(first, first + 20)) >= 5
 
 
 def _without_choice(make: Callable[[int], Description], seeds: range) -> int:

@@ -8,7 +8,13 @@ from argparse import ArgumentParser
 from collections import Counter
 
 from tests.executive.second.comparing import differences
-from tests.executive.second.generator import bounded_mission, following_mission, random_mission
+from tests.executive.second.generator import (
+    bounded_mission,
+    following_mission,
+    prioritised_mission,
+    random_mission,
+    windowed_mission,
+)
 from tests.executive.second.searching import TooHardError
 
 
@@ -20,8 +26,12 @@ def main() -> int:
     parser.add_argument("--choices", action="store_true", help="show differences, too, where a planner had a choice")
     parser.add_argument("--bounds", action="store_true", help="of goals that say how long they may take")
     parser.add_argument("--turns", action="store_true", help="of a user whose model says what follows")
+    parser.add_argument("--priorities", action="store_true", help="of a planner that decides some goals first")
+    parser.add_argument("--windows", action="store_true", help="of a simulator that lets things begin at times only")
     given = parser.parse_args()
-    make = bounded_mission if given.bounds else following_mission if given.turns else random_mission
+    makes = {"bounds": bounded_mission, "turns": following_mission}
+    makes |= {"windows": windowed_mission, "priorities": prioritised_mission}
+    make = next((made for name, made in makes.items() if getattr(given, name)), random_mission)
     tally: Counter[str] = Counter()
     for seed in range(given.first, given.first + given.count):
         try:

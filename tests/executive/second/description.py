@@ -6,7 +6,7 @@ from typing import Literal
 FAR = 100_000  # beyond every time and number of these missions
 
 Relation = Literal[
-    "any", "meets", "met_by", "before", "after", "equals", "contains", "contained_by", "starts", "ends"
+    "any", "meets", "met_by", "before", "after", "equals", "contains", "contained_by", "starts", "ends", "starts_during"
 ]  # fmt: skip
 
 
@@ -130,6 +130,7 @@ class Part:
     ranges: tuple[tuple[str, str, str, int, int], ...] = ()  # of parameters: timeline, predicate, name, bounds
     early: tuple[str, ...] = ()
     late: tuple[str, ...] = ()
+    first: tuple[str, ...] = ()  # predicates of goals that its solver's table has decided in this order
 
 
 @dataclass(frozen=True, slots=True)

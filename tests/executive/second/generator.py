@@ -75,11 +75,54 @@ def following_mission(seed: int) -> Description:
             asked = Child(relation, "valve", "Open" if dice.integers(3) else "Shut", "o")
             one, other = ("Open", "Shut") if dice.integers(2) else ("Shut", "Open")
             turn = Rule("valve", one, (Child("meets", "valve", other, "t"),))
-            rules = [replace(rule, body=(*rule.body, asked)) if rule.predicate == "Do" else rule for rule in part.rules]
+            rules = _asking_also(part, "Do", asked)
             part = replace(part, external=tuple(sorted((*part.external, "valve"))), rules=(*rules, turn))
         parts.append(part)
     kinds = (*found.kinds, kind)
     return replace(found, name=f"following_{seed}", kinds=kinds, parts=(own, *parts))
+
+
+def prioritised_mission(seed: int) -> Description:
+    """The mission of a seed, in which one planner decides goals of one predicate before those of another."""
+    found, dice = random_mission(seed), default_rng((seed, 4))
+    length, order = int(dice.choice((2, 4, 7))), ("Halt", "Do") if dice.integers(2) else ("Do", "Halt")
+    parts = []
+    for part in found.parts:
+        if part.name == "plan0":
+            halt = Rule("task0", "Halt", (Bound("duration", length, length),))
+            part = replace(part, rules=(*part.rules, halt), first=order)
+        parts.append(part)
+    wishes = []
+    for wish in found.wishes:
+        if wish.timeline == "task0" and dice.integers(2):
+            wish = replace(wish, predicate="Halt", arguments=())
+        wishes.append(wish)
+    return replace(found, name=f"prioritised_{seed}", parts=tuple(parts), wishes=tuple(wishes))
+
+
+def windowed_mission(seed: int) -> Description:
+    """The mission of a seed, one of whose simulators lets things begin only while it has a gate open itself."""
+    found, dice = random_mission(seed), default_rng((seed, 3))
+    kind = Kind("gate", (("Shut", ()), ("Open", ())))
+    shut, opened = int(dice.choice((3, 6, 11))), int(dice.choice((2, 5, 9)))
+    relation: Relation = "contained_by" if dice.integers(2) else "starts_during"
+    turns = [Rule("gate", "Shut", (Bound("duration", shut, shut), Child("meets", "gate", "Open", "o")))]
+    if dice.integers(2):
+        turns.append(Rule("gate", "Open", (Bound("duration", opened, opened), Child("meets", "gate", "Shut", "s"))))
+    parts = []
+    for part in found.parts:
+        if part.name == "owner0":
+            rules = _asking_also(part, "Act", Child(relation, "gate", "Open", "g"))
+            internal = [part.internal[place] for place in dice.permutation(len(part.internal))]
+            internal.insert(int(dice.integers(len(internal) + 1)), "gate")
+            part = replace(part, lookahead=1, internal=tuple(internal), rules=(*rules, *turns))
+        parts.append(part)
+    return replace(found, name=f"windowed_{seed}", kinds=(*found.kinds, kind), parts=tuple(parts))
+
+
+def _asking_also(part: Part, predicate: str, child: Child) -> list[Rule]:
+    """The rules of a reactor, of which those of one predicate ask for one more thing."""
+    return [replace(one, body=(*one.body, child)) if one.predicate == predicate else one for one in part.rules]
 
 
 def random_mission(seed: int) -> Description:

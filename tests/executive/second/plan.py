@@ -283,6 +283,9 @@ class Plan:
             net.differ(mine.end, its.start, 0, 0 if relation == "meets" else FAR)
         if relation in ("met_by", "after"):
             net.differ(its.end, mine.start, 0, 0 if relation == "met_by" else FAR)
+        if relation == "starts_during":
+            net.differ(its.start, mine.start, 0, FAR)
+            net.differ(mine.start, its.end, 1, FAR)
         if relation in ("contains", "contained_by"):
             outer, inner = (mine, its) if relation == "contains" else (its, mine)
             net.differ(outer.start, inner.start, 0, FAR)

@@ -174,10 +174,18 @@ def observed(plan: Plan, news: News, now: Now) -> Iterator[Plan]:
 
 def completed(plan: Plan, now: Now) -> Plan:
     """The plan with a current token on each own timeline and nothing open of what holds now."""
-    found = next(_each(plan, now, plan.part.internal), None)
+    found = next(_each(plan, now, tuple(sorted(plan.part.internal, key=lambda one: _rank(plan, now, one)))), None)
     if found is None:
         raise PresentError("F3")
     return found
+
+
+def _rank(plan: Plan, now: Now, timeline: str) -> tuple[int, int]:
+    """Timelines are decided in the order of the asking where what comes next was asked for, then what is early."""
+    planned = plan.planned(timeline)
+    if not planned or not plan.window(planned[0])[0] <= now.tick <= plan.window(planned[0])[1]:
+        return 2, 0
+    return (0, planned[0]) if plan.goals_of[planned[0]] else (2 - (timeline in plan.part.early), 0)
 
 
 def _each(plan: Plan, now: Now, timelines: tuple[str, ...]) -> Iterator[Plan]:

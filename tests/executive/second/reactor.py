@@ -116,15 +116,18 @@ class Reactor:
         first: PresentError | None = None
         try:
             for folded in fold_in(plan, now):
+                found = None
                 if places and self.simulates and now.tick < self.description.final:
                     found = self._searched(folded, now.tick)
-                    if found is not None:
-                        folded = found[0]
+                for placed in (found[0], folded) if found is not None else (folded,):
+                    try:
+                        settled = completed(placed, now)
+                    except PresentError as failure:  # what a command needs may be what cannot be: that is given up last
+                        first = first or failure
+                        continue
+                    if found is not None and placed is found[0]:
                         self._take_over(found[1], reports=False)
-                try:
-                    return completed(folded, now)
-                except PresentError as failure:
-                    first = first or failure
+                    return settled
         except PresentError as failure:
             first = first or failure
         raise first or PresentError("F2")

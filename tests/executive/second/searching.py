@@ -35,7 +35,13 @@ class Search:
             low = max(goal.start[0], self.earliest)
             if (low <= self.horizon or goal.start[1] < self.earliest) and low < self.final:
                 near.append(goal)
-        return self._search(plan, sorted(near, key=lambda one: (max(one.start[0], self.earliest), one.order)), True)
+        return self._search(plan, sorted(near, key=self._order), True)
+
+    def _order(self, goal: Goal) -> tuple[int, int, int]:
+        """By the priorities of the solver's table, then the earliest start, then the asking."""
+        first = self.part.first
+        place = first.index(goal.predicate) if goal.predicate in first else 0
+        return place, max(goal.start[0], self.earliest), goal.order
 
     def _search(self, plan: Plan, goals: list[Goal], counts: bool) -> Found | None:
         """Depth first: goals, then what else is open, the earliest first; to reject a goal is the last choice."""

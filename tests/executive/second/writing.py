@@ -22,6 +22,8 @@ def written(description: Description, folder: Path) -> Path:
     """Write it; the mission file."""
     for part in description.parts:
         (folder / f"{part.name}.nddl").write_text(model(description, part))
+        if part.first:
+            (folder / f"{part.name}.toml").write_text(table(description, part))
     file = folder / "mission.toml"
     file.write_text(mission(description))
     return file
@@ -46,6 +48,18 @@ def model(description: Description, part: Part) -> str:
         text.append(f"fact({first.timeline}.{first.predicate} first{place});\nfirst{place}.start == 0;")
         text += [f"eq(first{place}.{name}, {value});" for name, value in first.arguments]
     return "\n".join([*text, ""])
+
+
+def table(description: Description, part: Part) -> str:
+    """The solver's table of a reactor whose goals have priorities: tokens are ordered first, what else is open last."""
+    lines = ["[[manager]]", 'component = "ThreatManager"', "default_priority = 0"]
+    lines += ["[[manager]]", 'component = "OpenConditionManager"', "default_priority = 50"]
+    for place, predicate in enumerate(part.first, 1):
+        kind = next(kind.name for kind in description.kinds if kind.timeline == part.internal[0])
+        lines += ["[[manager.handler]]", 'component = "StandardOpenConditionHandler"']
+        lines += [f'predicate = "{kind}.{predicate}"', f"priority = {place}"]
+    lines += ["[[manager]]", 'component = "UnboundVariableManager"', "default_priority = 50"]
+    return "\n".join([*lines, ""])
 
 
 def _class(kind: Kind, part: Part) -> str:
@@ -122,6 +136,8 @@ def mission(description: Description) -> str:
         lines += [f"latency = {part.latency}", f"lookahead = {part.lookahead}", f"internal = {_texts(part.internal)}"]
         if part.external or part.observed:
             lines.append(f"external = {_texts((*part.external, *part.observed))}")
+        if part.first:
+            lines.append(f'solver = "{part.name}.toml"')
         for key in ("early", "late"):
             if names := getattr(part, key):
                 lines.append(f"{key} = {_texts(names)}")
