@@ -11,7 +11,7 @@ cdef long long NOTHING, SPAN_REQUEST
 cdef class Goals:
     cdef public str name
     cdef public Workbench bench
-    cdef public object trace, repair, wishes
+    cdef public object trace, repair, wishes, cuts
     cdef public list timelines, waiting, posted, to_recall, refusals, lacking, loosened
     cdef public dict lines, rejections, given_up
     cdef public bint is_changed

@@ -1,7 +1,8 @@
 """What a reactor was asked for: queued until its window comes, posted, given up, taken back, done (T-REX 1.8)."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from runtime.executive.cuts import Cuts, Repair
 from runtime.executive.dispatch import Dispatch
 from runtime.executive.messages import Request
 from runtime.executive.outcome import Conflict, Deadlock, EventKind, OpenGoal, Reason, ReasonKind
@@ -14,17 +15,6 @@ from runtime.executive.view import SPAN_REQUEST
 from runtime.executive.wishes import Wishes
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import INFINITY
-
-
-@dataclass(frozen=True, slots=True)
-class Repair:
-    """The last repair of a reactor: when, its event, and what made it necessary."""
-
-    tick: int
-    event: int
-    reason: Reason
-    conflict: Conflict | None
-    deadlock: Deadlock | None = None
 
 
 class Goals:
@@ -44,7 +34,8 @@ class Goals:
         self.lacking: list[Refusal] = []  # of what is over
         self.given_up: dict[int, OpenGoal] = {}  # mandatory ones, by the number of the request
         self.is_changed = False  # something was posted or taken out of the plan
-        self.repair: Repair | None = None
+        self.repair: Repair | None = None  # the last one
+        self.cuts = Cuts(bench)
         self.loosened: list[tuple[int, int, float, float]] = []
         self.rejections: dict[int, Deadlock] = {}  # what the planner knows of the goals that it has rejected
 
@@ -192,12 +183,21 @@ class Goals:
     def _watched(self, conflict: Conflict) -> tuple[Watched, ...]:
         return watched_in(conflict, self.bench, self.timelines, self.posted)
 
-    def note_repair(self, repair: Repair, watched: tuple[Watched, ...] = ()) -> None:
+    def note_repair(
+        self,
+        tick: int,
+        event: int,
+        reason: Reason,
+        conflict: Conflict | None,
+        deadlock: Deadlock | None = None,
+        watched: tuple[Watched, ...] = (),
+    ) -> None:
         """Keep why the plan is repaired: where a goal is at stake, told on through the other reactors."""
-        conflict = repair.conflict
-        if conflict is not None and watched and self.live():
+        goals = self.live()
+        if conflict is not None and watched and goals:
             conflict = self.trace.tell_on(conflict, watched)
-        self.repair = replace(repair, conflict=conflict)
+        self.repair = Repair(tick, event, reason, conflict, deadlock)
+        self.cuts.note(goals, tick)
 
     def missed(self) -> list[int]:
         """The goals that the planner has just rejected, whoever asked."""
@@ -317,6 +317,8 @@ class Goals:
         """
         found = False
         late: list[int] = []
+        if self.cuts.held and self.repair is not None:
+            self.cuts.close(self.live(), self.repair)
         for goal in self.live():
             bench, token = self.bench, goal.token
             if not bench.is_alive(token, goal.token_key):
@@ -384,15 +386,12 @@ class Goals:
         )
 
     def _live_goal(self, goal: Goal) -> OpenGoal:
-        """A goal that is planned or runs; if a repair came while it ran, that may have cut it loose."""
-        found, repair, bench = _open_goal(goal.request), self.repair, self.bench
-        if repair is None or not bench.is_alive(goal.token, goal.token_key):
+        """A goal that is planned or runs; where a repair has cut it loose, that is why it is open."""
+        found, cut = _open_goal(goal.request), self.cuts.of.get(goal.request.number)
+        if cut is None or not self.bench.is_alive(goal.token, goal.token_key):
             return found
-        began = bench.start(bench.stands_for(goal.token))
-        if bench.upper(began) > repair.tick or repair.event < goal.request.event:
-            return found
-        why = Reason(ReasonKind.CUT_LOOSE, repair=repair.reason)
-        return replace(found, reason=why, event=repair.event, conflict=repair.conflict, deadlock=repair.deadlock)
+        why = Reason(ReasonKind.CUT_LOOSE, repair=cut.reason)
+        return replace(found, reason=why, event=cut.event, conflict=cut.conflict, deadlock=cut.deadlock)
 
 
 def _open_goal(request: Request) -> OpenGoal:

@@ -5,7 +5,7 @@ from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.deferral import Deferral
 from runtime.executive.dispatch import Dispatch
 from runtime.executive.draws import Draws
-from runtime.executive.goals import Goals, Repair
+from runtime.executive.goals import Goals
 from runtime.executive.holding import is_blocked
 from runtime.executive.lasting import last_until
 from runtime.executive.messages import Observation, Request
@@ -162,7 +162,7 @@ class PlanReactor(TeleoReactor):
                     reason=failed.reason,
                     conflict=failed.conflict,
                 )
-                self.goals.note_repair(Repair(tick, event, broke.reason, broke.conflict, broke.deadlock), watched)
+                self.goals.note_repair(tick, event, broke.reason, broke.conflict, broke.deadlock, watched)
                 self.relaxes += 1
                 self.planner.kept_depth = 0
                 self.dispatch.is_repaired = True
@@ -337,7 +337,7 @@ class PlanReactor(TeleoReactor):
             self.dispatch.is_repaired = True
             stage = RepairStage.REPLAN
             event = self.trace.record(EventKind.RELAX, self.name, stage=stage, reason=what, conflict=conflict)
-            self.goals.note_repair(Repair(tick, event, what, conflict))
+            self.goals.note_repair(tick, event, what, conflict)
             if relax(self.bench, self.timelines, self.goals.live(), self.past, tick + 1, forget=False):
                 return True
         deadlock = self.planner.deadlock()
