@@ -226,6 +226,11 @@ class Oracle:
             one.rejected = event["tick"]
 
     def _achieved(self, event: Data) -> None:
+        if "request" not in event:  # wanted by the model itself
+            line = next(each for each in self.reactor(event["reactor"]).lines if each.name == event["timeline"])
+            if event["arguments"]["n"] != line.planned[1] or not 0 < line.planned[0] < event["tick"]:
+                self.say(event, "its model wants nothing of the sort")
+            return
         if (one := self._fate(event, True)) is None:
             return
         if one.achieved is not None:
