@@ -1,6 +1,7 @@
 """Declare constructors, and check their bodies: `super(...)` first, then one value per member."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.allocation import (
@@ -24,7 +25,7 @@ from nddl_lang.semantics.codes import (
     UNKNOWN_NAME,
 )
 from nddl_lang.semantics.expressions import type_of
-from nddl_lang.semantics.names import complain_unknown, complain_unknown_member, find, follow, resolve
+from nddl_lang.semantics.names import complain_unknown, complain_unknown_member, find, follow, resolve, suggest_name
 from nddl_lang.semantics.schema import (
     Chosen,
     Class,
@@ -150,9 +151,14 @@ def _tell_undeclared(context: Context, scope: Scope, base: Class | None, node: S
         is_known = is_told or find(context, scope, word) is not None or nearest(word, visible) is not None
         if not is_known and name is not None:
             context.reported.add(word)
+            wanted = next(iter(types))
+            fitting_names = [one.variable.name for one in scope.variables.values() if one.variable.type.name == wanted]
+            complaint = UNKNOWN_NAME.at(argument.span, name=word)
+            if len(fitting_names) == 1:
+                context.complain(suggest_name(complaint, argument.parts[0], (), fitting_names[0]))
+                continue
             context.symbols.put_partial(name)  # whoever makes an object may give it
-            help_ = f"declare it as a parameter: `{name}({next(iter(types))} {word})`"
-            context.complain(UNKNOWN_NAME.at(argument.span, name=word, help=help_))
+            context.complain(replace(complaint, help=f"declare it as a parameter: `{name}({wanted} {word})`"))
 
 
 def _advise_base(context: Context, name: str, types: Sequence[Type | None]) -> str:

@@ -291,10 +291,12 @@ def _interval_type(context: Context, scope: Scope, interval: IntervalExpr) -> Ty
             kinds.append(type_.kind)
     lower, upper = number(interval.lower), number(interval.upper)
     if lower is not None and upper is not None and lower > upper:
-        swap = f"[{interval.upper.span.text} {interval.lower.span.text}]"
+        first, second = interval.lower.span.text, interval.upper.span.text
+        is_dash = second[:2] == "- " and 0.0 <= lower < -upper
+        swap = f"[{first} {second[2:]}]" if is_dash else f"[{second} {first}]"
         fix = Fix(f"write `{swap}`", (Edit(interval.span, swap),), safe=False)
-        text = (interval.lower.span.text, interval.upper.span.text)
-        context.complain(REVERSED_INTERVAL.at(interval.span, fixes=(fix,), lower=text[0], upper=text[1]))
+        help_ = f"between the bounds stands no `-`: write `{swap}`" if is_dash else None
+        context.complain(REVERSED_INTERVAL.at(interval.span, help=help_, fixes=(fix,), lower=first, upper=second))
         return None
     if len(kinds) < 2:
         return None

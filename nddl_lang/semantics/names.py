@@ -4,6 +4,7 @@ The order of look-up: enum values, local variables, the own token's variables (i
 globals, classes. Before a dot a token comes first: `x.y` is the token's variable even where a parameter is called x.
 """
 
+import re
 from collections.abc import Iterable, Sequence
 
 from nddl_lang.semantics.codes import (
@@ -45,6 +46,7 @@ MOST_NAMED = 8  # names that a help lists
 _VALUE_TABLES = ("global", "goal", "value")
 _COMPARISONS = frozenset(("==", "!=", "<", "<=", ">", ">="))
 _LITERALS = ("true", "false", "inf", "inff")
+_HYPHEN = re.compile(r"-([A-Za-z_$][\w$]*)", re.ASCII)
 _TRUTHS = {"yes": "true", "no": "false", "on": "true", "off": "false"}
 
 
@@ -298,6 +300,11 @@ def complain_unknown(
     context.reported.add(word)
     if word == "this":
         context.complain(MISPLACED_THIS.at(name.span, place=scope.kind.value))
+    elif (parted := _parted_name(context, scope, name)) is not None:
+        meant, span = parted
+        context.reported.add(meant.rpartition("_")[2])
+        fix = Fix(f"write `{meant}`", (Edit(span, meant),), safe=False)
+        context.complain(_with(UNKNOWN_NAME.at(name.span, name=word), f"did you mean `{meant}`?", (fix,)))
     elif (lost := scope.lost_at(word)) is not None:
         note = Note(f"`{word}` is declared in a block that ends before this place", lost)
         context.complain(NAME_OF_OTHER_BLOCK.at(name.span, notes=(note,), name=word))
@@ -348,6 +355,15 @@ def complain_unknown(
             fix = Fix(f"declare `{type_name} {word}`", (Edit(before, f"{type_name} "),), safe=False)
             complaint = _with(complaint, complaint.help or fix.title, (*complaint.fixes, fix))
         context.complain(complaint)
+
+
+def _parted_name(context: Context, scope: Scope, name: Identifier) -> tuple[str, Span] | None:
+    """The known name that `A-B`, which begins with `name`, was meant to be, `A_B`, and where it stands."""
+    rest = _HYPHEN.match(name.span.source.text, name.span.finish)
+    meant = "" if rest is None else f"{name.name}_{rest[1]}"
+    if rest is None or find(context, scope, meant) is None:
+        return None
+    return meant, Span(name.span.anchor, name.span.start, name.span.end + len(rest[0]))
 
 
 def _is_predicate(context: Context, class_name: str, name: str) -> bool:

@@ -11,6 +11,7 @@ from nddl_lang.text.diagnostic import Edit, Fix
 from nddl_lang.text.source import Span
 
 _MOST_WORDS = 40  # of a statement that are looked at
+_MOST_USES = 20  # of a name, before which it is given to a token
 _N = rf"(?!(?:{'|'.join(RESERVED - {'this', 'object'})})\b)[A-Za-z_$][\w$]*"
 _PATH = rf"{_N}(?: \. {_N})*"
 _NUMBER = r"[-+]?(?:\.?\d\S*|inff?)"
@@ -122,6 +123,16 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
         r"an interval is written `[\2 \3]`",
         r"\1 [\2 \3];",
     ),
+    (
+        rf"new ({_N}) ({_N}) = ({_N}) \((.*)\) ;",
+        r"an object is made so: `\1 \2 = new \3(\4);`",
+        r"\1 \2 = new \3(\4);",
+    ),
+    (
+        rf"(.*(?:=|in|==)) \[ ({_NUMBER} , {_NUMBER}(?: , {_NUMBER})+) \] ;",
+        r"an interval has two bounds; single values stand in braces: `{\2}`",
+        r"\1 {\2};",
+    ),
     (rf"({_TYPE}) = (.*) ;", r"a variable has a name: `\1 name = \2;`", ""),
     (
         rf"({_ASKS}) ({_PATH}) \( ({_N}) \) ;",
@@ -204,6 +215,11 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
         r"a distance stands after the relation: `\1\2 [\4 \4] \3;`",
         "",
     ),
+    (
+        rf"({_ASKS}) \( ({_N}) ({_N}(?: \. {_N})+) \) ;",
+        r"the name of the token stands last: `\1(\3 \2);`",
+        r"\1(\3 \2);",
+    ),
     # Files and comments.
     (rf"from ({_N}) import.*|import ({_N}) ;?", r'a file is included by `#include "\1\2.nddl"`', ""),
     (r'"" ".*', "a comment begins with `//`, one that editors show with `///`", ""),
@@ -276,9 +292,15 @@ def find_idiom(b: Builder, first: int, index: int, is_inside: bool) -> Idiom | N
 
 def _is_token(b: Builder, first: int, name: str) -> bool:
     """Whether a token is named so before the lexeme `first`, as in `any(Class.predicate name)`."""
-    return any(
-        b.texts[at] == name and b.kinds[at - 1] == "IDENT" and b.kinds[at + 1] == ")" for at in range(1, first - 1)
-    )
+    at = 0
+    for _ in range(_MOST_USES):
+        try:
+            at = b.texts.index(name, at + 1, max(1, first - 1))
+        except ValueError:
+            return False
+        if b.kinds[at - 1] == "IDENT" and b.kinds[at + 1] == ")":
+            return True
+    return False
 
 
 def _is_prose(b: Builder, first: int, index: int) -> bool:

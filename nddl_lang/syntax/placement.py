@@ -166,7 +166,7 @@ def _misplaced(b: Builder, statement: Any, block: BlockGrammar) -> BrokenStateme
         fixes = (Fix(f"write `{meant}`", (Edit(span, meant),), safe=False),)
     elif isinstance(statement, CallConstraint | ExprConstraint) and block is CLASS:
         help_text = "put it into a predicate or a rule; a constructor needs a body: `{ }`"
-    elif isinstance(statement, CallConstraint) and block is CONSTRUCTOR and nearest(statement.name.name, ["super"]):
+    elif isinstance(statement, CallConstraint) and block is CONSTRUCTOR and _is_super(statement.name.name):
         help_text = "did you mean `super`?"
     elif isinstance(statement, CallConstraint) and b.kinds[2:3] == ["extends"] and b.texts[3] == statement.name.name:
         help_text = "the constructor of the base class is called by `super(...)`"
@@ -191,6 +191,11 @@ def _misplaced(b: Builder, statement: Any, block: BlockGrammar) -> BrokenStateme
         help_text = "declare it as a member of the class"
     b.report(MISPLACED, head_of(span), what=_NAMES[type(statement)], where=block.where, help=help_text, fixes=fixes)
     return broken
+
+
+def _is_super(name: str) -> bool:
+    """Whether a call was meant to be that of the constructor of the base class."""
+    return name in ("base", "parent", "inherited") or nearest(name, ["super"]) is not None
 
 
 def _pointer(statement: ExprConstraint) -> str | None:

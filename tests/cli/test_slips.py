@@ -15,7 +15,7 @@ from tests.cli.slips_in_the_survey import IN_THE_SURVEY
 HARBOUR = Path(__file__).parent / "harbour"
 PROJECTS = {
     **{name: HARBOUR.parent / name for name in ("harbour", "telescope", "depot", "brewery", "quarry")},
-    **{name: HARBOUR.parents[2] / "models" / "templates" / name for name in ("survey", "window", "noise")},
+    **{name: HARBOUR.parents[2] / "models" / "templates" / name for name in ("survey", "window", "noise", "deadline")},
 }
 SLIPS = IN_THE_SURVEY + AT_THE_HARBOUR + AT_THE_TELESCOPE + AT_THE_BREWERY
 Captured = pytest.CaptureFixture[str]
