@@ -4,17 +4,20 @@ The founding paper's oracle is premature end (section 4, "any premature mission 
 stay open are class F10 of the failure taxonomy (reference of T-REX, 1.10 and 1.11).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
 from checker.limits import Limit, Limits
 from checker.losses import Exceeded, Losses, exceeded, losses_of
-from runtime.executive.events import numbered
-from runtime.executive.outcome import Abort, EventKind, Outcome, PropertyFate, Reason, ReasonKind
+from runtime.executive.events import EventLog, numbered, single_events
+from runtime.executive.outcome import Abort, Event, EventKind, Outcome, PropertyFate, Reason, ReasonKind
 
 _GOALS_OPEN = "F10"
 _NO_RECORD = "F7"
 _BROKEN = "F11"
+_DEAD = "F8"
+_FAILED = "Failed"  # the predicate that a timeline holds whose owner is lost
 PROPERTY = "P1"
 _LIMIT_CODES = {Limit.REJECTED: "L1", Limit.LATE: "L2", Limit.REPAIRS: "L3", Limit.UNDELIVERED: "L4"}
 OUT_OF_TIME = "TIME"  # of an ERROR: the mission took longer than it may
@@ -70,6 +73,8 @@ def judge(outcome: Outcome) -> Judgement:
     end = given_up(outcome)
     if end is not None:
         return Judgement(Verdict.FAIL, end.code, end.reason)
+    if (dead := _dead(outcome.events)) is not None:
+        return Judgement(Verdict.FAIL, _DEAD, dead)
     if outcome.ended_early:
         reason = Reason(ReasonKind.NO_RECORD, tick=outcome.last_tick, limit=outcome.final_tick)
         return Judgement(Verdict.FAIL, _NO_RECORD, reason)
@@ -97,6 +102,18 @@ def given_up(outcome: Outcome) -> Abort | None:
     return Abort(
         event.code, event.tick, event.reactor, lines, event.reason, event.conflict, repairs, index, deadlock=deadlock
     )
+
+
+def _dead(events: Sequence[Event]) -> Reason | None:
+    """The first timeline that came to hold `Failed` though nobody was killed: an owner said so itself (T-REX 1.10)."""
+    said = [one for one in single_events(events) if one.kind is EventKind.OBSERVATION and one.predicate == _FAILED]
+    found = [(one.tick, one.timeline) for one in said]
+    if isinstance(events, EventLog):
+        found += [(int(each.ticks[0]), each.timeline) for _, each in events.published() if each.predicate == _FAILED]
+    if not found:
+        return None
+    tick, timeline = min(found)
+    return Reason(ReasonKind.HELD_FAILED, predicate=_FAILED, timeline=timeline, tick=tick)
 
 
 def judge_within(outcome: Outcome, limits: Limits) -> Judgement:

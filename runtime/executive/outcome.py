@@ -196,6 +196,7 @@ class ReasonKind(StrEnum):
     # of the mission
     GOALS_OPEN = "goals open"
     NO_RECORD = "no record"
+    HELD_FAILED = "held failed"
     CUT_OFF = "cut off"
     CUT_LOOSE = "cut loose"
 

@@ -53,6 +53,7 @@ _REASONS = {
     ReasonKind.RAISED: "its code failed: {message}",
     ReasonKind.DECLINED: "its code does not do it: {message}",
     ReasonKind.GOALS_OPEN: "mandatory goals stayed open",
+    ReasonKind.HELD_FAILED: "`{timeline}` holds `Failed` from tick {tick} on",
     ReasonKind.NO_RECORD: "ended at tick {tick} of {limit} without an abort record",
     ReasonKind.CUT_LOOSE: "it began, and a repair has cut it loose from what was to end it",
     ReasonKind.CUT_OFF: "{predicate} on `{timeline}` counts as achieved, but was cut off by a repair",
