@@ -18,6 +18,7 @@ _WORLD = (
 )
 _BOUNDING = (ElementKind.CONSTRAINT, ElementKind.DURATION)
 _VALUES = (ElementKind.ASSIGNMENT, ElementKind.DECLARATION)
+_HELPING = {"levelLimitMin": "produce", "levelLimitMax": "consume"}
 _GIVEN = (*_VALUES, ElementKind.REQUEST)
 # Kinds of elements that say when something may be.
 _TIMING = (ElementKind.CLOCK, ElementKind.RELATION, ElementKind.ORDER, ElementKind.LONGEST, ElementKind.SHARED_END)
@@ -79,6 +80,14 @@ def checks_of(conflict: Conflict | None) -> list[ConflictElement]:
     given = {variable for element in elements if element.kind in _GIVEN for variable in element.variables}
     constraints = [element for element in elements if element.kind is ElementKind.CONSTRAINT]
     return [element for element in constraints if element.variables and given.issuperset(element.variables)]
+
+
+def lacking_in(conflict: Conflict | None) -> frozenset[tuple[str, str]]:
+    """The resources that a conflict finds too empty or too full, each with the event that more of would help."""
+    elements = conflict.elements if conflict is not None else ()
+    levels = (one for element in elements if element.kind is ElementKind.RESOURCE for one in element.variables)
+    named = [one.name.rpartition(".") for one in levels if one.token is None]
+    return frozenset((resource, _HELPING[limit]) for resource, _, limit in named if limit in _HELPING)
 
 
 def own_elements(conflict: Conflict | None) -> list[ConflictElement]:

@@ -8,10 +8,11 @@ argument leads to the line that sets it, and a request to its sender.
 import heapq
 import re
 from collections import defaultdict
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from checker.counterfactual.affinity import WORD
 from checker.counterfactual.instructions import is_shared, pairs_in
 from checker.counterfactual.links import DURATION_NAME, TIMES, Key, Links
 from checker.mutation.edits import EditSite
@@ -101,6 +102,14 @@ class Dependence:
                 yield number
                 for key in sorted((one for one in self._keys[number] if one[0] == "token"), key=str):
                     yield from self._users[key]
+
+    def supplying(self, lacking: Collection[tuple[str, str]]) -> frozenset[str]:
+        """The predicates, without their classes, whose rules have an event of a resource; `lacking` names both."""
+        sites = [self.sites[number] for name, _ in lacking for number in self.of_level(name)]
+        events = {event for _, event in lacking}
+        return frozenset(
+            one.rule.rpartition(".")[2] for one in sites if one.rule and events & set(WORD.findall(one.text))
+        )
 
     def setting(self, predicate: str, variable: str) -> Iterator[int]:
         """The sites in the rule of a predicate that bear on a parameter of its token, or on how long that lasts."""

@@ -1,21 +1,23 @@
 """A failed mission in, candidates of its mission file out, the likeliest first: tried where no model line mends.
 
 What a goal asks that the conflict speaks of is tried in any case, and so is when goals may come of a reactor whose
-request set the time that the conflict speaks of. Of what else goals ask for, the earliest goal that
-was not achieved is tried; of a property that is violated, its ticks.
+request set the time that the conflict speaks of. So are the times of goals whose rules fill a resource that the
+conflict finds too empty. Of what else goals ask for, the earliest goal that was not achieved is tried; of a property
+that is violated, its ticks.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from checker.causes import failed_by, timed_requests
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.mission import Mission
-from checker.mutation.mission_edits import mission_sites
+from checker.mutation.edits import SmallEdit
+from checker.mutation.mission_edits import is_due, mission_sites
 from checker.single_values import single_value
 from compiler.program import DomainConstant
-from runtime.executive.configuration import GoalConfiguration
+from runtime.executive.configuration import GoalConfiguration, PropertyConfiguration
 from runtime.executive.events import single_events
 from runtime.executive.messages import Arguments
 from runtime.executive.outcome import ConflictElement, ElementKind, EventKind, Outcome
@@ -23,11 +25,15 @@ from runtime.executive.outcome import ConflictElement, ElementKind, EventKind, O
 _SPOKEN, _DEAF, _BROKEN, _LOST, _ABORTED, _ASKED, _OTHERS = 0.0, 0.0, 0.5, 1.0, 2.0, 2.5, 3.0
 _OWNER, _OTHER_OWNER = 0.5, 1.5  # of what a reactor in Python is given that owns what was given up
 _MOST_ASKERS = 4  # goals behind a request, the most urgent first
+_AMONG = 0.1  # of a number that lies among those of the other goals
 _GIVEN_UP = (EventKind.REJECT, EventKind.REFUSE)
 
 
-def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
-    """The times of goals that found no place, then what says how the reactors plan, that which ended first."""
+def mission_lines(mission: Mission, outcome: Outcome, supplying: Collection[str] = ()) -> list[Candidate]:
+    """The times of goals that found no place, then what says how the reactors plan, that which ended first.
+
+    `supplying` are the predicates whose rules fill the resource that the conflict finds too empty, or empty it.
+    """
     given_up = {(one.timeline, one.predicate) for one in single_events(outcome.events) if one.kind in _GIVEN_UP}
     given_up |= {(one.timeline, one.predicate) for one in outcome.open_goals if one.conflict is not None}
     ended = outcome.abort.reactor if outcome.abort is not None else ""
@@ -44,19 +50,24 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
     for (table, number), sites in mission_sites(mission).items():
         if table == "goal":
             goal = mission.agent.goals[number]
-            if (goal.timeline, goal.predicate) not in given_up and not broken and number not in behind:
+            is_supply = goal.predicate in supplying
+            is_lost = (goal.timeline, goal.predicate) in given_up
+            if not (is_lost or is_supply or broken or number in behind):
                 continue
-            far = _LOST if (goal.timeline, goal.predicate) in given_up else _OTHERS
+            far = _SPOKEN + _AMONG if is_supply else _LOST if is_lost else _OTHERS
         elif table == "asked":
-            sites = [one for one in sites if number == due or one.wanted]
+            spoken = [one for one in sites if any(one.holds(one.file, place.line) for place in asked)]
+            sites = [one for one in sites if number == due or one.wanted or one in spoken]
             far = _ASKED
         elif table == "setting":
             owned = set(mission.agent.coded[number].internal)
             far = _OWNER if owned & troubled else _OTHER_OWNER
         elif table == "property":
-            if mission.agent.properties[number].name != broken:
+            kept = mission.agent.properties[number]
+            if kept.name != broken:
                 continue
             far = _BROKEN
+            sites = [replace(one, edits=_due_still(one.edits, kept, outcome)) for one in sites]
         else:
             reactor = mission.agent.reactors[number]
             far = _ABORTED if reactor.name == ended else _OTHERS
@@ -68,7 +79,8 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
                 is_spoken = number in behind
                 site = replace(site, edits=site.edits[-1:] if is_spoken else site.edits[:-1] or site.edits)
             source = Suspicion.CONFLICT if is_spoken or table == "property" else Suspicion.TRACE
-            found.append(Candidate(site, _SPOKEN if is_spoken or site.wanted else far, source))
+            nearest = _SPOKEN + _AMONG * bool(site.unlike)
+            found.append(Candidate(site, nearest if is_spoken or site.wanted else far, source))
     return sorted(found, key=lambda one: one.far)
 
 
@@ -93,6 +105,12 @@ def _behind_requests(
         if latest < math.inf
     ]
     return frozenset(number for _, number in sorted(found)[:_MOST_ASKERS])
+
+
+def _due_still(edits: Sequence[SmallEdit], kept: PropertyConfiguration, outcome: Outcome) -> tuple[SmallEdit, ...]:
+    """The edits of a violated property with which what violated it is due before the mission is over."""
+    broken = next(one.tick for one in outcome.properties if one.name == kept.name)
+    return tuple(edit for edit in edits if is_due(edit, kept, broken, outcome.final_tick))
 
 
 def _due(mission: Mission, outcome: Outcome) -> int:

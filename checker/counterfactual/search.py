@@ -23,7 +23,7 @@ from checker.counterfactual.remarks import remarks_of, with_remarks
 from checker.counterfactual.trials import Trials, try_out
 from checker.counterfactual.usage import usage_of
 from checker.coverage import Universe
-from checker.culprit import checks_of, is_of_values
+from checker.culprit import checks_of, is_of_values, lacking_in
 from checker.limits import Limit
 from checker.mission import Mission
 from checker.mutation.additions import with_additions
@@ -122,7 +122,8 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     agent = world.agent
     candidates = candidates_of(outcome, graph, Path(agent.root), agent.properties, exercised, text, coded=agent.coded)
     candidates = with_remarks(candidates, world.findings)
-    last = mission_lines(world.mission, outcome) if world.mission is not None else ()
+    supplying = graph.supplying(lacking_in(failed_by(outcome).conflict))
+    last = mission_lines(world.mission, outcome, supplying) if world.mission is not None else ()
     bounds = bounds.grown(sum(len(one.site.edits) for one in candidates), len(outcome.events))
     trials = try_out(candidates, missions, usage, partial(_fly, world), bounds, last, graph.beside)
     return replace(trials, loose=loose_ends(graph, candidates, usage))

@@ -82,7 +82,7 @@ _LAST_CASE = 2.0  # odds that no value of an enumeration is for nothing, where a
 _FREED = 2.0  # odds that a line which alone says what a variable is says it with `==`
 _WRITTEN = 1.0  # odds that tokens come in the order in which a rule asks for them
 _AMONG = 0.4  # odds of each of so many constants for none of which anything speaks
-_UNLIKE = 1.5  # odds that a whole number is not mistaken for a real one
+_UNLIKE = 1.5  # odds that a whole number is not mistaken for a real one, and a wish lies among those of its kind
 _CONFUSED = 2.0  # odds that two numbers of one variable are not the same
 _DENIED = 2.0  # odds that two lines that agree on an order of tokens are right
 _FLOW = 2.0  # odds that a resource is both consumed and produced
@@ -157,7 +157,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.ARGUMENTS if is_result_moved(edit, site):
             return _RESULT + usage.formulas.place_odds(edit, site)
         case EditKind.GOAL:
-            return _WISHED - _UNKNOWN * usage.is_of_object(edit)
+            return _WISHED - _UNKNOWN * usage.is_of_object(edit) + _UNLIKE * ((edit.begin, edit.new) in site.unlike)
         case EditKind.PREDICATE if edit.old in EVENTS:
             return 3.0 - _FLOW * (not usage.counts[edit.new])
         case EditKind.PREDICATE:

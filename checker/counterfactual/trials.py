@@ -178,7 +178,7 @@ def try_out(
     best: dict[EditSite, LineTrial] = {}
     helping: dict[EditSite, list[LineTrial]] = defaultdict(list)
     tried: set[tuple[EditSite, SmallEdit]] = set()
-    outside = [(candidate, edit) for candidate in last for edit in candidate.site.edits]
+    outside = _by_turns(last)
     outside = [one for one in outside if delay_of(one[1], one[0].site, usage) is None][:_MOST_OUTSIDE]
     spoken = sum(candidate.source is Suspicion.CONFLICT for candidate, _ in outside)
     share = _MODELS if outside else 1.0
@@ -238,6 +238,13 @@ def try_out(
     ended = trials.ended or trials.cut or (TrialsEnd.FLIGHTS if turns else TrialsEnd.COMPLETE)
     lines = len({site for site, _ in tried})
     return Trials(tuple(ranked), tuple(candidates), lines, trials.flights, ended)
+
+
+def _by_turns(last: Sequence[Candidate]) -> list[tuple[Candidate, SmallEdit]]:
+    """The changes of the mission file in order; of what goals ask for that is equally near, one of each by turns."""
+    found = [(candidate, edit, turn) for candidate in last for turn, edit in enumerate(candidate.site.edits)]
+    found.sort(key=lambda one: (one[0].far, one[2] if one[1].kind is EditKind.GOAL else 0))
+    return [(candidate, edit) for candidate, edit, _ in found]
 
 
 def _reserve(best: Mapping[EditSite, LineTrial], others: int, bounds: Bounds) -> int:

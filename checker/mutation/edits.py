@@ -83,7 +83,8 @@ class EditSite:
     that is set here, a number if `is_number`; `is_rule`: it is the head of a rule, for which something may be missing.
     `begin` is its offset. `agreeing` edits, each by its offset and what it writes, give both sides of `==` one type.
     `is_apart`: the two can hardly be compared. `wanted` edits, given alike, make of a copy what it was copied for.
-    `unlike` edits, given alike, write a whole number for a real one, or the other way round, unless they agree.
+    `unlike` edits, given alike, write a whole number for a real one, or the other way round, unless they agree; of a
+    goal, a number beyond those of the other goals, where it lies among them.
     `inputs` are the numbers, each with its type, that the token of a rule brings along, told at its head.
     `coded` is the constraint of the project's own that it calls, in Python. `is_check`: a conflict shows that it only
     compares what others give.

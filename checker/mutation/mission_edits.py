@@ -4,6 +4,7 @@ What is drawn is the world's: it is not changed. What else a goal may ask for is
 the other truth value, or a number half or a tenth as large.
 """
 
+import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -16,13 +17,13 @@ from checker.mutation.kinds import EditKind
 from compiler.program import TOKEN_TIMES
 from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Source
-from runtime.executive.configuration import AgentConfiguration, GoalConfiguration
+from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, PropertyConfiguration
 
 _PARAMETERS = "parameters"
 _NUMBER = re.compile(r"(?<![\w.])\d+(\.\d+)?")
 _SERIES = 3  # goals that each have a number of their own
 _FACTORS = (2.0, 10.0, 0.5, 0.1)
-_LONGER = 10  # times as many ticks, of a property
+_LONGER = (2, 10)  # times as many ticks, of a property
 
 
 def mission_sites(mission: Mission) -> dict[tuple[str, int], list[EditSite]]:
@@ -42,13 +43,24 @@ def mission_sites(mission: Mission) -> dict[tuple[str, int], list[EditSite]]:
             found["goal", number] = list(_times(mission, number))
             found["asked", number] = list(_asked(mission, number))
         for number, kept in enumerate(mission.agent.properties):
-            limits: dict[str, object] = {
-                "by": final if kept.by is not None else None,
-                "ticks": min(_LONGER * kept.ticks, final) or None,
-            }
-            sites = list(_sites(text, ("property", number), limits))
-            found["property", number] = [*sites, *_promised(text, ("property", number))]
+            sites = list(_sites(text, ("property", number), {"by": final if kept.by is not None else None}))
+            found["property", number] = [*sites, *_longer(text, number, kept, final), *_promised(text, number, kept)]
     return found
+
+
+def is_due(edit: SmallEdit, kept: PropertyConfiguration, broken: int | None, final: int) -> bool:
+    """Whether what broke a promise at a tick is due before the mission is over with an edit of it; else none can."""
+    if broken is None or not kept.ticks or edit.old != str(kept.ticks):
+        return True
+    return broken + int(edit.new) - kept.ticks < final
+
+
+def _longer(text: MissionText, number: int, kept: PropertyConfiguration, final: int) -> Iterator[EditSite]:
+    """The ticks within which something is promised, more of them, as long as anything can be due in time."""
+    path = ("property", number, "ticks")
+    longer = [str(times * kept.ticks) for times in _LONGER if 0 < times * kept.ticks < final]
+    if longer and path in text.places:
+        yield _site(text, path, EditKind.PROMISE, longer)
 
 
 def agent_with(mission: Mission, agent: AgentConfiguration, edit: SmallEdit) -> AgentConfiguration:
@@ -99,10 +111,13 @@ def _times(mission: Mission, number: int) -> Iterator[EditSite]:
             yield _site(text, path, EditKind.MISSION, list(dict.fromkeys(others)))
 
 
-def _promised(text: MissionText, table: tuple[str, int]) -> Iterator[EditSite]:
-    """The level that a resource keeps within, and the first number of a condition."""
-    if (level := (*table, "level")) in text.places:
-        yield _site(text, level, EditKind.PROMISE, ["[-inf, inf]"])
+def _promised(text: MissionText, number_of: int, kept: PropertyConfiguration) -> Iterator[EditSite]:
+    """The levels that a resource keeps within, without one of the limits, and the first number of a condition."""
+    table = ("property", number_of)
+    if (level := (*table, "level")) in text.places and kept.level is not None:
+        lower, upper = kept.level.bounds
+        wider = [one for one in ((-math.inf, upper), (lower, math.inf)) if one != (lower, upper)]
+        yield _site(text, level, EditKind.PROMISE, [f"[{low:g}, {high:g}]" for low, high in wider])
     if (where := (*table, "where")) in text.places:
         said = text.value_span(where).text
         number = _NUMBER.search(said)
@@ -141,7 +156,18 @@ def _asked(mission: Mission, number: int) -> Iterator[EditSite]:
             fresh = [str(one) for one in (value + 1, value - 1) if one > 0 and one not in asked]
         others = [one for one in dict.fromkeys((*fresh, *found)) if one not in (own.text, "0")]
         site = _site(text, path, EditKind.GOAL, others)
-        yield replace(site, wanted=frozenset((own.begin, one) for one in fresh))
+        unlike = frozenset((own.begin, one) for one in others if _leaves_others(goals, number, key, one))
+        yield replace(site, wanted=frozenset((own.begin, one) for one in fresh), unlike=unlike)
+
+
+def _leaves_others(goals: Sequence[GoalConfiguration], number: int, key: str, new: str) -> bool:
+    """Whether a number that lies among those of the other goals of its predicate would not with a new value."""
+    beside = [one for at, one in enumerate(goals) if at != number and _what(one)[:2] == _what(goals[number])[:2]]
+    known = [value for one in beside if isinstance(value := dict(one.parameters).get(key), int | float)]
+    value = dict(goals[number].parameters)[key]
+    if not known or not isinstance(value, int | float) or not _NUMBER.fullmatch(new):
+        return False
+    return min(known) <= value <= max(known) and not min(known) <= float(new) <= max(known)
 
 
 def _is_copy(goals: Sequence[GoalConfiguration], number: int, key: str) -> bool:

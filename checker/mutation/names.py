@@ -24,13 +24,14 @@ def other_values(node: Any, names: LineScope) -> Iterator[tuple[Span, str]]:
 
 
 def other_names(node: Any, names: LineScope) -> Iterator[tuple[Span, str]]:
-    """Other variables of the type, where a variable, a constant or a value of an enumeration is written."""
+    """Other variables of the type, where a variable, a member, a constant or a value of an enumeration is written."""
     if not isinstance(node, PathExpr):
         return
     parts = _written(node.parts)
     if parts[0] in names.objects and names.owner and not names.is_local(parts[0]):
         yield from ((node.span, other) for other in names.beside(parts))
         return
+    yield from ((node.span, other) for other in names.own_members(parts))
     kind = names.type_of(parts) or names.enum_of(parts) or ("float" if parts[0] in names.constants else "")
     if names.is_value(kind):
         is_constant = len(parts) == 1 and parts[0] in names.constants

@@ -80,6 +80,13 @@ class LineScope:
         if kind in _NUMBERS:
             yield from self.constants
 
+    def own_members(self, parts: tuple[str, ...]) -> Iterator[str]:
+        """The other members of the type that the own object has, where one of it is written."""
+        members = self.members.get(self.owner, {})
+        if len(parts) == 2 and parts[0] == _OWN and parts[1] in members:
+            kind = members[parts[1]]
+            yield from (f"{_OWN}.{name}" for name, known in members.items() if name != parts[1] and known == kind)
+
     def is_local(self, name: str) -> bool:
         """Whether a name is one of the rule."""
         return name in self.variables or name in self.tokens

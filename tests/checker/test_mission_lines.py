@@ -4,10 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from checker.mission import read_mission
+from checker.counterfactual.mission_lines import mission_lines
+from checker.mission import Mission, read_mission
 from checker.mutation.kinds import EditKind
 from checker.mutation.mission_edits import agent_with, mission_sites
 from nddlc.main import run
+from runtime.executive.outcome import Outcome, PropertyFate
 from tests.checker.checked import faults_of
 
 pytestmark = pytest.mark.once
@@ -254,3 +256,43 @@ def test_what_a_reactor_in_python_is_given_may_be_another_number(tmp_path: Path)
     assert [one.new for one in site.edits] == ["160.0", "800.0", "40.0", "8.0"]
     changed = agent_with(mission, mission.agent, site.edits[0])
     assert dict(changed.coded[0].settings) == {"wire": 160.0, "side": "left"}
+
+
+@pytest.mark.parametrize(("ticks", "longer"), [(4, ["8", "40"]), (30, ["60"]), (60, [])])
+def test_what_is_promised_within_a_time_is_due_before_the_mission_ends(
+    tmp_path: Path, ticks: int, longer: list[str]
+) -> None:
+    """Ten times 30 ticks of a mission of 100: a promise that nothing can break is none."""
+    then = f'ticks = {ticks}\nthen = {{ timeline = "lock", predicate = "Open" }}\n'
+    mission = promising(tmp_path, f'kind = "within"\ntimeline = "lock"\npredicate = "Warm"\n{then}')
+    sites = mission_sites(mission)["property", 0]
+    assert [edit.new for site in sites for edit in site.edits] == longer
+
+
+@pytest.mark.parametrize(("broken", "due"), [(20, ["8", "40"]), (70, ["8"]), (97, [])])
+def test_what_broke_a_promise_is_still_due_with_more_ticks(tmp_path: Path, broken: int, due: list[str]) -> None:
+    then = 'ticks = 4\nthen = { timeline = "lock", predicate = "Open" }\n'
+    mission = promising(tmp_path, f'kind = "within"\ntimeline = "lock"\npredicate = "Warm"\n{then}')
+    fate = PropertyFate("soon", is_kept=False, tick=broken, margin=-1.0)
+    outcome = Outcome(1, 100, 100, None, (), (), (), properties=(fate,))
+    found = [one for one in mission_lines(mission, outcome) if "ticks" in one.site.text]
+    assert [edit.new for one in found for edit in one.site.edits] == due
+
+
+@pytest.mark.parametrize(
+    ("level", "wider"), [("[0, 100]", ["[-inf, 100]", "[0, inf]"]), ("[10, inf]", ["[-inf, inf]"])]
+)
+def test_of_levels_that_are_promised_one_limit_is_left_out(tmp_path: Path, level: str, wider: list[str]) -> None:
+    mission = promising(tmp_path, f'kind = "level"\nresource = "water"\nlevel = {level}\n')
+    (site,) = mission_sites(mission)["property", 0]
+    assert [edit.new for edit in site.edits] == wider
+
+
+def promising(folder: Path, promise: str) -> Mission:
+    """The mission with one property."""
+    (folder / "lock.nddl").write_text(MODEL)
+    path = folder / "mission.toml"
+    path.write_text(MISSION.replace("[check]", f'[[property]]\nname = "soon"\n{promise}[check]'))
+    mission, found = read_mission(path)
+    assert mission is not None, found
+    return mission

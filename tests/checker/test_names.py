@@ -303,3 +303,26 @@ Boat::Stay { wait == SLIDE; }
         assert soon is not None and late is not None and soon < late
     named, bare_zero = (edit(found, text, "0", "5") for text in ("SLIDE = 0;", "wait == 0;"))
     assert cost_of(*named, usage) < cost_of(*bare_zero, usage)
+
+
+OWN = """class Row extends Timeline {
+    int metres;
+    int opens;
+    int closes;
+    float height;
+    predicate Visit { int metres; }
+    Row(int m, int o, int c, float h) { metres = m; opens = o; closes = c; height = h; }
+}
+Row::Visit { metres == object.closes; }
+"""
+
+
+def test_another_member_of_the_own_object_may_be_meant(tmp_path: Path) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_text(OWN)
+    found = sites_of(load_graph(path, ()))
+    site = named(found, "metres == object.closes;")
+    others = [one for one in site.edits if one.old == "object.closes"]
+    assert [one.new for one in others] == ["object.metres", "object.opens"]
+    costs = [cost_of(one, site, usage_of(found)) for one in others]
+    assert costs[0] < costs[1]  # it has the name of what is compared with it
