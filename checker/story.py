@@ -23,7 +23,7 @@ from checker.proofs.places import ModelText
 from checker.requested import lines_that_ask, who_chose
 from checker.standing import Standing, StandingLines
 from checker.steps import Step, StepKind, without_repeats
-from checker.told_events import lost_events, promised_events, sent_requests
+from checker.told_events import failed_owner, lost_events, promised_events, sent_requests
 from checker.waiting import waited_for
 from runtime.executive.configuration import AgentConfiguration, CodeConfiguration
 from runtime.executive.events import heads_of, single_events
@@ -103,7 +103,8 @@ def tell(
     ended = outcome.last_tick if abort is None else abort.tick
     if result.judgement.exceeded is not None:
         way = lost_events(outcome, result.judgement.exceeded.limit)
-    way = sorted([*way, *promised_events(result, outcome, agent)], key=lambda event: event.tick)
+    dead = failed_owner(result.judgement, outcome)
+    way = sorted([*way, *dead, *promised_events(result, outcome, agent)], key=lambda event: event.tick)
     steps = [
         *draws,
         *_events(way, broken, outcome, text, taken),

@@ -5,9 +5,10 @@ from collections.abc import Iterator
 from checker.batch.result import MissionResult
 from checker.causes import timed_requests
 from checker.limits import Limit
+from checker.oracle import Judgement
 from runtime.executive.configuration import AgentConfiguration, PropertyKind
-from runtime.executive.events import numbered, single_events
-from runtime.executive.outcome import Conflict, Event, EventKind, Outcome
+from runtime.executive.events import events_on, numbered, single_events
+from runtime.executive.outcome import Conflict, Event, EventKind, Outcome, ReasonKind
 
 _MOST_PROMISED = 4  # requests for what a property promises, and their answers
 _ASKED = (EventKind.REQUEST, EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL)
@@ -53,3 +54,12 @@ def promised_events(result: MissionResult, outcome: Outcome, agent: AgentConfigu
         asked = [one for one in events if one.kind in _ASKED and one.timeline == wanted.timeline and one.tick >= since]
         found += [one for one in asked if wanted.predicate in ("", one.predicate)][-_MOST_PROMISED:]
     return found
+
+
+def failed_owner(judgement: Judgement, outcome: Outcome) -> list[Event]:
+    """Where a timeline came to hold `Failed`, if that is why the mission fails."""
+    reason = judgement.reason
+    if reason is None or reason.kind is not ReasonKind.HELD_FAILED:
+        return []
+    said = (one for one in events_on(outcome.events, {reason.timeline}) if one.kind is EventKind.OBSERVATION)
+    return [next(one for one in said if one.tick == reason.tick)]
