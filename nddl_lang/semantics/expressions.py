@@ -70,7 +70,6 @@ from nddl_lang.syntax.nodes import (
     UnaryExpr,
 )
 from nddl_lang.text.diagnostic import Edit, Fix
-from nddl_lang.text.source import Span
 
 NO_ENVIRONMENT = "give the value from outside: compare with a number, or with a global variable that the script assigns"
 
@@ -342,10 +341,11 @@ def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
             type_of(context, scope, argument)
         if context.callables.has_gaps and name not in context.callables.constraints:
             return None
-        if context.symbols.find_class(name) is not None:
+        spellings = (name, name[0].upper() + name[1:])
+        if made := next((one for one in spellings if context.symbols.find_class(one) is not None), ""):
             at = call.function.span
-            fix = Fix(f"write `new {name}`", (Edit(Span(at.anchor, at.start, at.start), "new "),), False)
-            help_ = f"`{name}` is a class: an object of it is made by `new {name}(...)`"
+            fix = Fix(f"write `new {made}`", (Edit(at, f"new {made}"),), False)
+            help_ = f"`{made}` is a class: an object of it is made by `new {made}(...)`"
             context.symbols.put_faulty("new")
             context.complain(UNKNOWN_FUNCTION.at(at, help=help_, fixes=(fix,), name=name))
             return None

@@ -124,6 +124,11 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
         r"\1 [\2 \3];",
     ),
     (
+        rf"(.*= new {_N}) ({_N}(?: , {_N})*) ;",
+        r"the arguments stand in parentheses: `\1(\2);`",
+        r"\1(\2);",
+    ),
+    (
         rf"new ({_N}) ({_N}) = ({_N}) \((.*)\) ;",
         r"an object is made so: `\1 \2 = new \3(\4);`",
         r"\1 \2 = new \3(\4);",
@@ -219,6 +224,11 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
         rf"({_ASKS}) \( ({_N}) ({_N}(?: \. {_N})+) \) ;",
         r"the name of the token stands last: `\1(\3 \2);`",
         r"\1(\3 \2);",
+    ),
+    (
+        rf"({_ASKS}) \( ({_N}) ({_N}) ({_N}) \) ;",
+        r"class and predicate are joined by a dot: `\1(\2.\3 \4);`",
+        r"\1(\2.\3 \4);",
     ),
     # Files and comments.
     (rf"from ({_N}) import.*|import ({_N}) ;?", r'a file is included by `#include "\1\2.nddl"`', ""),
