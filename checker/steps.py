@@ -62,7 +62,7 @@ class Step:
 
 
 def without_repeats(steps: Iterable[Step]) -> list[Step]:
-    """The steps with those left out whose line the story has told already, the fault excepted.
+    """The steps with those left out whose line the story has told already, the fault and other draws excepted.
 
     Of the elements of one line that is told which speaks of the most of it. What no line says of many tokens of one
     predicate, such as that each lasts a tick at least, is told of the first.
@@ -77,8 +77,8 @@ def without_repeats(steps: Iterable[Step]) -> list[Step]:
             kept.append(step)
         elif key == guilty:
             continue
-        elif key not in told:
-            told[key] = len(kept)
+        elif key not in told or step.kind is StepKind.DRAW:
+            told.setdefault(key, len(kept))
             kept.append(step)
         elif step.place is None:
             kept[told[key]] = replace(kept[told[key]], alike=kept[told[key]].alike + 1)

@@ -1,6 +1,6 @@
 """One failed mission in, its story out: the steps from what was drawn to the line where the agent gave up."""
 
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from checker.batch.result import MissionResult
@@ -88,7 +88,9 @@ def tell(
     confirmation = _confirmed(result, conflict, fault, text)
     parameters = suspects(outcome, fault, first)
     until = _decided_at(result, outcome)
-    draws = _draws(outcome, agent, _acting(influence, outcome, until, taken, conflicts), parameters, until, conflicts)
+    acting = _acting(influence, outcome, until, taken, conflicts)
+    draws = _draws(outcome, agent, acting, parameters, until, conflicts)
+    redrawn = [] if broken is None else _draws(outcome, agent, acting, parameters, broken.tick, conflicts[-1:])
     shown = _tokens_of(outcome, influence, parameters, until)
     indices = {
         *shown,
@@ -106,8 +108,7 @@ def tell(
     dead = failed_owner(result.judgement, outcome)
     way = sorted([*way, *dead, *promised_events(result, outcome, agent)], key=lambda event: event.tick)
     steps = [
-        *draws,
-        *_events(way, broken, outcome, text, taken),
+        *_in_time([*redrawn, *draws], _events(way, broken, outcome, text, taken)),
         *_with_askers(_conflict(conflict, confirmation), outcome, text, taken),
         *_tried(failed),
         *(Step(StepKind.WAITING, None, one) for one in waited_for(outcome, agent)),
@@ -207,22 +208,38 @@ def _draws(
     parameters: tuple[str, ...],
     until: int,
     conflicts: Sequence[Conflict],
-) -> list[Step]:
-    """What was drawn last up to a tick, or of what the conflicts speak, and the lines that pass it on."""
+) -> list[list[Step]]:
+    """What was drawn, each with the lines that pass it on: that of which the conflicts speak, or the last up to a tick.
+
+    Of what is drawn for anew the last one is told as well if what it acts on still holds then.
+    """
     by_name = {parameter.name: parameter for parameter in agent.parameters}
     spoken = dict(drawn for conflict in conflicts for drawn in conflict.drawn)
-    steps: list[Step] = []
+    holding = {line: predicate for _, tick, line, predicate in heads_of(outcome.events) if tick <= until}
+    found: list[list[Step]] = []
     for name in parameters:
         drawn = [draw for draw in outcome.draws if draw.parameter == name and draw.tick <= until]
-        drawn = [draw for draw in drawn if draw.value == spoken.get(name)] or drawn
-        if not drawn:
-            continue
-        draw, lines = drawn[-1], influence.get(name, ())
-        since = draw.tick if name in by_name and by_name[name].mode == "intra" else None
+        told = [draw for draw in drawn if draw.value == spoken.get(name)][-1:] or drawn[-1:]
+        lines = influence.get(name, ())
         place = lines[0].place if lines else _sampled_at(conflicts, name)
-        steps.append(Step(StepKind.DRAW, since, (draw, by_name.get(name)), place))
-        steps += [Step(StepKind.LINE, None, line.rule, line.place) for line in lines[1:]]
-    return steps
+        is_redrawn = name in by_name and by_name[name].mode == "intra"
+        if is_redrawn and any(line.predicate in holding.values() for line in lines):
+            told = list(dict.fromkeys((*told, *drawn[-1:])))
+        for draw in told:
+            first = Step(StepKind.DRAW, draw.tick if is_redrawn else None, (draw, by_name.get(name)), place)
+            found.append([first, *(Step(StepKind.LINE, None, line.rule, line.place) for line in lines[1:])])
+    return found
+
+
+def _in_time(draws: Sequence[list[Step]], events: Iterable[Step]) -> Iterator[Step]:
+    """Each draw with its lines before what came at its tick or later; what holds for good comes first."""
+    left = sorted(dict.fromkeys(map(tuple, draws)), key=lambda one: -1 if one[0].tick is None else one[0].tick)
+    for event in events:
+        while left and event.tick is not None and (left[0][0].tick or 0) <= event.tick:
+            yield from left.pop(0)
+        yield event
+    for each in left:
+        yield from each
 
 
 def _sampled_at(conflicts: Sequence[Conflict], name: str) -> SourcePlace | None:
