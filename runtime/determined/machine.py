@@ -34,6 +34,7 @@ from runtime.determined.tags import (
     WISH_FROM,
     WISHED,
 )
+from runtime.determined.trial import fits_within, holds
 
 _NAN, _TOLERANCE, _LARGEST = float("nan"), 1e-5, 2.0**51  # that of the engine's floats; what is larger is infinite
 
@@ -109,8 +110,7 @@ class Machine:
                 present.state[DUE * n + i] = present.state[FOLLOWER * n + i]
                 present.state[FOLLOWER * n + i] = NONE
                 if present.state[OWNER * n + i] != i:
-                    first = tables.following[i]
-                    into = tables.incoming[i]
+                    first, into = tables.following[i], tables.incoming[i]
                     for j in range(tables.width[i]):
                         self.registers[into + j] = self.registers[first + j]
         return self.start_all(tick)
@@ -146,7 +146,7 @@ class Machine:
             present.state[DUE * n + j] = NONE
         present.state[WISH_FROM * n + i] = tick
         self.is_trial = True
-        can = self.start_block(i, tick) and present.has_length(i)
+        can = self.start_block(i, tick) and present.has_length(i) and fits_within(present)
         self.is_trial = False
         return can
 
@@ -359,8 +359,7 @@ class Machine:
                 self.start(out, a)
                 self.log.note(present.now, out, a, -1 - self.root_row)
             elif op == 36:  # MERGE
-                holds = self.is_trial or present.changed >> out & 1 or not present.state[ENDING * n + out]
-                if not holds or present.state[PREDICATE * n + out] != a:
+                if not holds(present, tables, out, a, self.is_trial):
                     return False
             elif op == 37:  # PREVIOUS
                 if present.state[BEFORE * n + out] != a:

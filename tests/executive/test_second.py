@@ -43,6 +43,12 @@ def test_who_is_decided_first_by_the_table_is_so_in_the_second_agent(first: int)
     assert _without_choice(prioritised_mission, range(first, first + 20)) >= 5
 
 
+# What a command needs cannot be: it is given up, by register code when it is asked, too.
+@pytest.mark.parametrize("seed", [0, 24067])
+def test_what_once_differed_in_a_window_no_longer_does(seed: int) -> None:
+    assert differences(windowed_mission(seed))[0] == []
+
+
 def _without_choice(make: Callable[[int], Description], seeds: range) -> int:
     """In how many missions the text leaves a planner no choice; in these nothing differs."""
     sure = 0

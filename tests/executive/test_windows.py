@@ -43,3 +43,19 @@ def test_the_order_of_timelines_is_nothing_to_a_command_that_waits(world: str) -
     assert told == told[:1] * 6
     assert [line for line in told[0][0] if "Pass" in line] == [f"{WORLDS[world]} Pass"]
     assert sum(event.kind is EventKind.ACHIEVED for event in outcome.events) == 1
+
+
+@pytest.mark.parametrize("relation", ["contained_by", "starts_during"])
+@pytest.mark.parametrize("latency", [0, 1, 3])
+@pytest.mark.parametrize("opened", [2, 9])
+def test_a_command_ahead_of_time_is_judged_by_what_holds_when_it_may_begin(
+    opened: int, latency: int, relation: str
+) -> None:
+    """What holds when it is asked for is over by then, or too short."""
+    gate = f"Gate::Closed {{ duration == 3; meets(object.Open o); }} Gate::Open {{ duration == {opened};"
+    world = f"Boat::Pass {{ {relation}(Gate.Open o); }} {gate} meets(object.Closed c); }} Gate gate"
+    dock = simulator("dock", DOCK.replace("Gate gate", world), "gate tide boat", latency=latency)
+    for tick in range(2, 15):
+        for ahead in range(1, latency + 3):
+            goal = GoalConfiguration("boat", "Pass", tick, False, (tick + ahead, tick + ahead + tick % 3))
+            in_all_ways(dock, 30, (goal,), (), 1)
