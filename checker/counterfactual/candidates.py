@@ -31,6 +31,7 @@ from runtime.executive.outcome import Abort, Conflict, Deadlock, ElementKind, Ev
 from runtime.solver.tags import RESOURCE_THREAT
 
 _CULPRIT, _CONFLICT, _LOG, _OBSERVED, _COVERED, _EVENT, _AWAITED, _NAMED = 0.0, 0.25, 0.5, 0.5, 0.75, 1.0, 1.0, 1.5
+_AWAITED_END = 0.75  # of what another reactor had seen that only asked for something
 _ASKER = 1.0  # of a line by which another reactor only asked for something
 _UNSAID = 3.0  # of what bears on a token, where a property says what its arguments are
 _READ = 1.0  # of what bears on the arguments that Python read which published what failed, or raised
@@ -114,9 +115,11 @@ def candidates_of(
     for place, far, source in _named(outcome, failed.conflict, troubles, first):
         note(place, far, source)
     observed = _observed(failed.conflict) | _observed(first.conflict if first is not None else None)
-    for token, variable in sorted(observed):
+    waited_for = _observed(failed.conflict, is_by_askers=True) - observed
+    seen_at = dict.fromkeys(sorted(observed), _OBSERVED) | dict.fromkeys(sorted(waited_for), _AWAITED_END)
+    for (token, variable), least in seen_at.items():
         for number, steps in graph.behind(token, variable):
-            far = _OBSERVED + _STEP * steps
+            far = least + _STEP * steps
             if number not in roots or roots[number][0] > far:
                 roots[number] = (far, Suspicion.CONFLICT)
     for predicate, name in sorted(read_in_python(outcome, observed, coded)):
@@ -188,6 +191,7 @@ def candidates_of(
     abort = given_up(outcome)
     behind = first if first is not None and abort is not None and first.reactor != abort.reactor else None
     told = [_told(failed.conflict, graph, root)]
+    told.append({number for token, variable in waited_for for number, _ in graph.behind(token, variable)})
     if behind is not None:  # who ended may know only that another one took as long as it was asked to
         conflict = behind.conflict if behind.deadlock is None else in_common(behind.deadlock)
         slices = [graph.behind(token, variable) for token, variable in _observed(conflict)]
@@ -234,12 +238,16 @@ def _sites_at(place: SourcePlace | None, graph: Dependence, root: Path) -> set[i
     return set() if place is None else set(graph.at(str(real_path(root / place.file)), place.line))
 
 
-def _observed(conflict: Conflict | None) -> set[tuple[str, str]]:
-    """Predicates, each with a parameter or time that a conflict has from observation: a line of the owner set it."""
+def _observed(conflict: Conflict | None, *, is_by_askers: bool = False) -> set[tuple[str, str]]:
+    """Predicates, each with a parameter or time that a conflict has from observation: a line of the owner set it.
+
+    By askers: what others had seen who asked for something as late as that let them.
+    """
+    own = own_elements(conflict)
     return {
         (variable.token.predicate, variable.name)
-        for element in own_elements(conflict)
-        if element.kind is ElementKind.OBSERVATION
+        for element in (conflict.elements if conflict is not None else ())
+        if element.kind is ElementKind.OBSERVATION and (element in own) is not is_by_askers
         for variable in element.variables
         if variable.token is not None
     }
