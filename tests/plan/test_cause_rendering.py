@@ -58,4 +58,8 @@ def test_a_term_is_one_line(term: Term, line: str) -> None:
 def test_a_level_that_is_too_low_at_no_certain_time_is_so_in_the_end(at: int, when: str) -> None:
     low = ResourceTerm("pond", tags.TOO_LOW, at, at, 100.0, 100.0, 900.0, True, False, ())
     assert words(low) == f"the level of pond falls to 0 {when}, its least is 100"
+    users = (("Reservoir.consume#1", 900.0),)
+    used = words(ResourceTerm("pond", tags.TOO_LOW, at, at, 100.0, 100.0, 900.0, True, False, users))
+    alone = when if at == 17 else "by these uses alone"  # something may fill it in the end
+    assert used == f"the level of pond falls to 0 {alone}, its least is 100: Reservoir.consume#1 900"
     assert "4503" not in words(ResourceTerm("pond", tags.TOO_LOW, at, at, 1.0, 100.0, 900.0, True, at > 17, ()))

@@ -70,17 +70,18 @@ def _violation(found: ResourceTerm) -> str:
     when = f"at {found.at}" if is_dated else "in the end"
     users = ", ".join(f"{user} {used:g}" for user, used in found.users)
     users = f": {users}" if users else ""
+    so = "by these uses alone" if users and not is_dated else when  # what gives it back may not be in the plan yet
     if found.in_any_order:
         side = "falls below its least" if found.wrong == tags.TOO_LOW else "rises above its greatest"
         by = f"by {found.at}" if is_dated else "in the end"
         return f"the level of {name} {side}, {limit:g}, {by} in any order{users}"
     match found.wrong:
         case tags.TOO_LOW if found.has_helper:
-            return f"the level of {name} falls to {limit - amount:g} {when}, its least is {limit:g}{users}"
+            return f"the level of {name} falls to {limit - amount:g} {so}, its least is {limit:g}{users}"
         case tags.TOO_LOW:
             return f"{name} needs {found.room + amount:g} of {found.room:g} available {when}{users}"
         case tags.TOO_HIGH:
-            return f"the level of {name} rises to {limit + amount:g} {when}, its greatest is {limit:g}{users}"
+            return f"the level of {name} rises to {limit + amount:g} {so}, its greatest is {limit:g}{users}"
         case tags.TOO_TIGHT:
             have = found.room * (found.until - found.at)
             unit = "ticks" if found.room == 1.0 else "amount times ticks"
