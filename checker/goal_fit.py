@@ -7,9 +7,23 @@ from dataclasses import dataclass
 from checker.codes import OUT_OF_RANGE, OUT_OF_TIME
 from checker.mission_table import MissionText
 from checker.named_objects import named_objects
-from compiler.program import DomainConstant, ParameterCode, Program
-from nddl_lang.text.diagnostic import Diagnostic
+from checker.single_values import numbers_of
+from compiler.instructions import branched_instructions
+from compiler.program import (
+    DURATION,
+    END,
+    START,
+    Constant,
+    DomainConstant,
+    ParameterCode,
+    Post,
+    PredicateCode,
+    Program,
+    TokenVariable,
+)
+from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.nearest import nearest
+from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.configuration import AgentConfiguration, Bounds, GoalConfiguration, Value
 
@@ -44,8 +58,46 @@ def goals_out_of_time(agent: AgentConfiguration, text: MissionText) -> Iterator[
             yield OUT_OF_TIME.at(text.value_span(("goal", number, key)), reason=reason, help=advice)
 
 
-def _out_of_time(goal: GoalConfiguration, final_tick: int) -> tuple[str, str, str] | None:
-    """The key at fault, why there is no time for a goal, and what to do."""
+def too_long(
+    agent: AgentConfiguration, text: MissionText, number: int, predicate: PredicateCode, program: Program
+) -> Iterator[Diagnostic]:
+    """Complain of a goal that cannot be achieved since its rule says how long it lasts at least."""
+    goal = agent.goals[number]
+    found = max(_least_durations(predicate, program), key=lambda one: one[0], default=None)
+    if found is None or agent.final_tick < 1 or _out_of_time(goal, agent.final_tick) is not None:
+        return
+    late = _out_of_time(goal, agent.final_tick, found[0])
+    if late is not None:
+        key, reason, advice = late
+        notes = (Note(f"it lasts {found[0]:g} ticks or longer", found[1]),)
+        yield OUT_OF_TIME.at(text.value_span(("goal", number, key)), reason=reason, help=advice, notes=notes)
+
+
+def _least_durations(predicate: PredicateCode, program: Program) -> Iterator[tuple[float, Span]]:
+    """How long tokens of a predicate last at least by each line that its rules say in any case."""
+    numbers = dict(numbers_of(program))
+    own = {at: TokenVariable(0, at) for at in (DURATION, START, END)}
+    for rule in program.rules:
+        for step, within in branched_instructions(rule.body) if rule.predicate == predicate.name else ():
+            if not isinstance(step, Post) or within:
+                continue
+            least: object = None
+            match step.name, step.operands:
+                case "eq", (first, second) if own[DURATION] in (first, second):
+                    least = numbers.get(second if first == own[DURATION] else first)
+                case (("leq" | "lt"), (first, second)) if second == own[DURATION]:
+                    least = numbers.get(first)
+                case "temporalDistance", (first, Constant(domain=domain), second) if domain.interval is not None:
+                    if (first, second) == (own[START], own[END]):
+                        least = domain.interval[0]
+                    elif (first, second) == (own[END], own[START]):
+                        least = -domain.interval[1]
+            if isinstance(least, int | float) and least < HALF_INF:
+                yield math.floor(least) + 1.0 if step.name == "lt" else float(least), step.span
+
+
+def _out_of_time(goal: GoalConfiguration, final_tick: int, least: float = 1.0) -> tuple[str, str, str] | None:
+    """The key at fault, why there is no time for a goal, and what to do; it lasts `least` ticks or longer."""
     over = f"the mission ends at tick {final_tick}"
     raise_it = "send it earlier, or let the mission end later (`final_tick`)"
     start, end, duration = goal.start or _ANY, goal.end or _ANY, goal.duration or _ANY
@@ -55,10 +107,11 @@ def _out_of_time(goal: GoalConfiguration, final_tick: int) -> tuple[str, str, st
         return "start", f"it begins at tick {start[0]:g} or later, and {over}", raise_it
     if start[1] <= goal.at:
         return "start", f"it begins by tick {start[1]:g}, and is sent at tick {goal.at}", "send it earlier (`at`)"
-    if duration[1] < 1:
-        return "duration", f"it lasts {duration[1]:g} ticks at most", "a token lasts one tick or longer"
+    if duration[1] < least:
+        shortest_one = "a token lasts one tick or longer" if least <= 1 else f"its rule says {least:g} or more"
+        return "duration", f"it lasts {duration[1]:g} ticks at most", shortest_one
     first = max(start[0], goal.at + 1.0)
-    shortest = max(duration[0], 1.0)
+    shortest = max(duration[0], least)
     if first + shortest > final_tick:
         key = "duration" if goal.duration is not None else "start" if goal.start is not None else "at"
         return key, f"it ends at tick {first + shortest:g} or later, and {over}", raise_it

@@ -200,7 +200,7 @@ MISSION_PAGES = (
     RulePage(
         OUT_OF_TIME,
         "A goal is sent when the mission is over, or its bounds leave it no time between that tick and the "
-        "end of the mission.",
+        "end of the mission, for as long as its rule says that it lasts.",
         "It would stay open in every mission.",
         '[mission]\nfinal_tick = 600\n[[goal]]\nat = 700\ntimeline = "nav"\npredicate = "Transit"\n',
         '[mission]\nfinal_tick = 600\n[[goal]]\nat = 400\ntimeline = "nav"\npredicate = "Transit"\n',

@@ -13,7 +13,7 @@ from checker.codes import (
     NO_TIMELINE,
     UNUSED_PARAMETER,
 )
-from checker.goal_fit import strange_value
+from checker.goal_fit import strange_value, too_long
 from checker.mission import Mission
 from checker.mission_table import describe
 from checker.named_objects import named_objects
@@ -61,6 +61,7 @@ def find_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[
             yield respelt(complaint, goal.predicate, predicates)
         else:
             yield from _strange_arguments(mission, number, predicate, owner)
+            yield from too_long(mission.agent, text, number, predicate, owner)
 
 
 def _strange_arguments(

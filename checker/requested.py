@@ -4,24 +4,20 @@ A static slice, against the way of the value: from the argument of a child throu
 parameters of its own token, and on through the rules that ask for that token, in whatever reactor.
 """
 
-from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from checker.influence import Branch, InfluenceLine, branch_name, branch_of, line_of
 from checker.names import relative_name
-from checker.single_values import single_value
+from checker.single_values import numbers_of, single_value
 from compiler.instructions import all_instructions, branched_instructions
 from compiler.program import (
     FIRST_PARAMETER,
     TOKEN_TIMES,
-    Assign,
     Child,
-    Constant,
-    GlobalVariable,
     Guard,
     LocalVariable,
-    NewGlobal,
     NewToken,
     NewVariable,
     Operand,
@@ -81,7 +77,7 @@ def lines_that_ask(
         return ()
     found: dict[InfluenceLine, None] = {}
     first: _Wanted = (variable.token.predicate, variable.name), _value(element)
-    numbers = {reactor: dict(_numbers(program)) for reactor, program in programs.items()}
+    numbers = {reactor: dict(numbers_of(program)) for reactor, program in programs.items()}
     done: set[tuple[str, str]] = set()
     waiting = [first]
     while waiting:
@@ -218,18 +214,6 @@ def _sets(
     others = [numbers[one] for one in post.operands if one in numbers]
     is_given = post.name == _EQUAL and len(post.operands) == 2 and len(others) == 1
     return not (is_given and value is not None and others[0] != value)
-
-
-def _numbers(program: Program) -> Iterator[tuple[Operand, float | str]]:
-    """The global variables and constants of which one value is known."""
-    for step in program.script:
-        if isinstance(step, NewGlobal | Assign) and (value := single_value(step.domain)) is not None:
-            yield GlobalVariable(step.index) if isinstance(step, NewGlobal) else step.target, value
-    for rule in program.rules:
-        for each in all_instructions(rule.body):
-            for one in each.operands if isinstance(each, Post) else ():
-                if isinstance(one, Constant) and (value := single_value(one.domain)) is not None:
-                    yield one, value
 
 
 def _position(program: Program, predicate: str, name: str) -> int:

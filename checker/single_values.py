@@ -1,6 +1,9 @@
-"""What is known of an argument in, its one value out, as messages and goals carry it."""
+"""What is known of an argument or a constant in, its one value out."""
 
-from compiler.program import DomainConstant
+from collections.abc import Iterator
+
+from compiler.instructions import all_instructions
+from compiler.program import Assign, Constant, DomainConstant, GlobalVariable, NewGlobal, Operand, Post, Program
 
 
 def single_value(domain: DomainConstant | None) -> float | int | bool | str | None:
@@ -9,3 +12,15 @@ def single_value(domain: DomainConstant | None) -> float | int | bool | str | No
         return None
     values = set(domain.interval if domain.interval is not None else domain.values or ())
     return values.pop() if len(values) == 1 else None
+
+
+def numbers_of(program: Program) -> Iterator[tuple[Operand, float | str]]:
+    """The global variables and constants of which one value is known."""
+    for step in program.script:
+        if isinstance(step, NewGlobal | Assign) and (value := single_value(step.domain)) is not None:
+            yield GlobalVariable(step.index) if isinstance(step, NewGlobal) else step.target, value
+    for rule in program.rules:
+        for each in all_instructions(rule.body):
+            for one in each.operands if isinstance(each, Post) else ():
+                if isinstance(one, Constant) and (value := single_value(one.domain)) is not None:
+                    yield one, value

@@ -125,6 +125,31 @@ def test_a_goal_without_time_is_named(keys: str, reason: str, capsys: pytest.Cap
     assert (code, message) == ("NDDL720", f"this goal can never be achieved: {reason}")
 
 
+@pytest.mark.parametrize(
+    ("rule", "keys", "reason"),
+    [
+        ("duration == 20;", "start = [31, 40]", "it ends at tick 51 or later, and the mission ends at tick 50"),
+        ("duration >= LONG;", "start = [21, 40]", "it ends at tick 51 or later, and the mission ends at tick 50"),
+        ("duration >= LATER;", "start = [21, 40]", "it ends at tick 51 or later, and the mission ends at tick 50"),
+        ("19 < duration;", "at = 30", "it ends at tick 51 or later, and the mission ends at tick 50"),
+        ("start + 20 <= end;", "start = [5, 40]\nend = [6, 24]", "it ends by tick 24, and cannot before tick 25"),
+        ("end - start >= 20;", "duration = [2, 19]", "it lasts 19 ticks at most"),
+        ("duration == 20;", "start = [30, 40]", None),
+        ("duration <= 20;", "start = [31, 40]", None),
+        ("if (legs > 5) { duration == 20; }", "start = [31, 40]", None),
+    ],
+)
+def test_a_goal_without_time_for_what_its_rule_says_is_named(
+    rule: str, keys: str, reason: str | None, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "driver.nddl").write_text(
+        MODEL.replace("duration >= 3;", rule).replace("int LEGS", "int LONG = 30; int LATER; LATER = 30;\nint LEGS")
+    )
+    told = found(MISSION.replace('predicate = "Go"', f'predicate = "Go"\n{keys}'), capsys)
+    wanted = [] if reason is None else [f"this goal can never be achieved: {reason}"]
+    assert [message for code, _, message, _ in told if code == "NDDL720"] == wanted
+
+
 def test_half_a_tick_is_named(capsys: pytest.CaptureFixture[str]) -> None:
     text = MISSION.replace('predicate = "Go"', 'predicate = "Go"\nstart = [1.5, 30]')
     assert [one[2] for one in found(text, capsys)] == ["`start` must be whole ticks, not 1.5"]
