@@ -139,8 +139,9 @@ def step_text(step: Step, story: Story) -> str:
             return f"it acts through the rule of {rule}"
         case InfluenceLine(rule=rule):
             return f"the rule of {rule} asks for it"
-        case PlannerChoice(reactor=reactor, argument=argument):
-            return f"no line of {reactor} says what {argument} is: its planner chose"
+        case PlannerChoice(reactor=reactor, argument=argument, is_open=is_open):
+            so = "it asked for any value" if is_open else "its planner chose"
+            return f"no line of {reactor} says what {argument} is: {so}"
         case Event() as event:
             return event_line(event)
         case ConflictElement() as element:

@@ -4,7 +4,7 @@ A static slice, against the way of the value: from the argument of a child throu
 parameters of its own token, and on through the rules that ask for that token, in whatever reactor.
 """
 
-from collections.abc import Collection, Container, Iterable, Mapping, Sequence
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -26,9 +26,11 @@ from compiler.program import (
     RuleCode,
     TokenVariable,
 )
+from nddl_lang.text.source import Span
+from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.events import single_events
 from runtime.executive.outcome import ConflictElement, ElementKind, Event, EventKind, SourcePlace
-from runtime.plan.readout.names import VariableName
+from runtime.plan.readout.names import TokenName, VariableName
 
 _EQUAL = "eq"
 _TELLING = (EventKind.OBSERVATION, EventKind.REQUEST)
@@ -38,11 +40,15 @@ _MOST = 6  # lines that are told of one argument
 
 @dataclass(frozen=True, slots=True)
 class PlannerChoice:
-    """An argument that the planner of a reactor has chosen, since no line says what it is; where it asked for that."""
+    """An argument that the planner of a reactor has chosen, since no line says what it is; where it asked for that.
+
+    Where the argument `is_open` it has chosen none, and asked for any value.
+    """
 
     reactor: str
     argument: str
     place: SourcePlace | None
+    is_open: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,6 +128,34 @@ def who_chose(
     place = line_of(next(iter(spans))) if len(spans) == 1 else None
     place = place and replace(place, file=relative_name(place.file, root))
     return PlannerChoice(asked[-1].reactor, f"{wanted}.{variable.name}", place)
+
+
+def left_open(
+    token: TokenName, tick: int, programs: Mapping[str, Program], events: Iterable[Event], root: Path
+) -> Iterator[PlannerChoice]:
+    """The arguments without any bound in the last request up to `tick` for what a token holds, with who asked so."""
+    wanted = token.predicate.rpartition(".")[2]
+    asked = [one for one in events if one.kind is EventKind.REQUEST and one.predicate == wanted and one.tick <= tick]
+    if not asked or (sender := programs.get(asked[-1].reactor)) is None:
+        return
+    for name, domain in asked[-1].arguments:
+        lower, upper = domain.interval or (0, 0)
+        if lower <= -HALF_INF and upper >= HALF_INF:
+            spans = list(dict.fromkeys(_unsaid(sender, token.predicate, name)))
+            place = line_of(spans[0]) if len(spans) == 1 else None
+            place = place and replace(place, file=relative_name(place.file, root))
+            yield PlannerChoice(asked[-1].reactor, f"{wanted}.{name}", place, is_open=True)
+
+
+def _unsaid(program: Program, predicate: str, name: str) -> Iterator[Span]:
+    """Where rules ask for a predicate without a line that speaks of one of its parameters."""
+    at = _position(program, predicate, name)
+    for rule in program.rules:
+        steps = list(all_instructions(rule.body))
+        told = {one for step in steps if isinstance(step, Post) for one in step.operands}
+        for step in steps:
+            if isinstance(step, Child) and step.predicate == predicate and TokenVariable(step.slot, at) not in told:
+                yield step.span
 
 
 def _asked_variable(element: ConflictElement) -> VariableName | None:

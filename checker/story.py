@@ -20,7 +20,7 @@ from checker.influence import Branch, Influence, InfluenceLine
 from checker.oracle import Judgement, given_up
 from checker.proofs.conflict import Confirmation, confirm, needed_elements
 from checker.proofs.places import ModelText
-from checker.requested import lines_that_ask, who_chose
+from checker.requested import PlannerChoice, left_open, lines_that_ask, who_chose
 from checker.standing import Standing, StandingLines
 from checker.steps import Step, StepKind, without_repeats
 from checker.told_events import failed_owner, lost_events, promised_events, sent_requests
@@ -36,6 +36,7 @@ from runtime.executive.outcome import (
     EventKind,
     OpenGoal,
     Outcome,
+    ReasonKind,
     SourcePlace,
 )
 
@@ -121,7 +122,7 @@ def tell(
         result.open_goals,
         ended,
         outcome.final_tick,
-        tuple(_with_conditions(without_repeats(steps), text)),
+        tuple(_with_conditions(without_repeats(_with_open(steps, outcome, text)), text)),
         fault,
         confirmation,
         missed_after(outcome),
@@ -311,6 +312,20 @@ def _with_askers(
             chosen = None if lines else who_chose(step.subject, text.programs, events, text.root)
             if chosen is not None and not lines_that_ask(*asking):
                 yield Step(StepKind.CHOSEN, None, chosen, chosen.place)
+        yield step
+
+
+def _with_open(steps: Sequence[Step], outcome: Outcome, text: ModelText | None) -> Iterator[Step]:
+    """The steps, with the arguments that were left open before what went on longer than planned."""
+    told: set[PlannerChoice] = set()
+    for step in steps:
+        reason = step.subject.reason if isinstance(step.subject, Event | Abort) else None
+        if text is not None and reason is not None and reason.kind is ReasonKind.GOES_ON and reason.token is not None:
+            tick = outcome.last_tick if reason.tick is None else reason.tick
+            found = left_open(reason.token, tick, text.programs, single_events(outcome.events), text.root)
+            fresh = [one for one in found if one not in told]
+            told.update(fresh)
+            yield from (Step(StepKind.CHOSEN, None, one, one.place) for one in fresh)
         yield step
 
 

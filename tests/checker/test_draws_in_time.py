@@ -4,16 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch.worker import fly_one
-from checker.buckets import group_failures
-from checker.campaign import Campaign
-from checker.findings import Fault
-from checker.mission import read_mission
-from checker.models import load_models
-from checker.oracle import Verdict
-from checker.pinned import pinned
-from checker.steps import Step, StepKind
+from checker.steps import StepKind
 from runtime.executive.outcome import Draw, Event, EventKind
+from tests.checker.told_steps import steps_of
 
 pytestmark = pytest.mark.once
 
@@ -63,23 +56,10 @@ update = 10
 """
 
 
-def _steps(folder: Path, number: int) -> tuple[Step, ...]:
-    files = {"shared.nddl": SHARED, "planner.nddl": PLANNER, "simulator.nddl": SIMULATOR, "mission.toml": MISSION}
-    for name, text in files.items():
-        (folder / name).write_text(text)
-    mission, found = read_mission(folder / "mission.toml")
-    assert mission is not None, found
-    models = load_models(mission)
-    given = Campaign(mission, models, pinned(models))
-    failed = fly_one(given.load(models.agent), given.task(number))
-    assert failed.verdict is Verdict.FAIL
-    (bucket,) = group_failures((failed,))
-    return given.story(failed, Fault(bucket, None, None)).steps
-
-
 @pytest.mark.parametrize("number", range(6))
 def test_each_draw_stands_before_what_came_of_it(tmp_path: Path, number: int) -> None:
-    steps = _steps(tmp_path, number)
+    files = {"shared.nddl": SHARED, "planner.nddl": PLANNER, "simulator.nddl": SIMULATOR, "mission.toml": MISSION}
+    steps = steps_of(tmp_path, files, number)
     draws = [one.subject[0] for one in steps if isinstance(one.subject, tuple)]
     assert draws
     assert all(isinstance(one, Draw) and one.parameter == "LATE" for one in draws)

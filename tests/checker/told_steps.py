@@ -1,0 +1,28 @@
+"""A small mission in, the steps of the story of one of its failures out."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from checker.batch.worker import fly_one
+from checker.buckets import group_failures
+from checker.campaign import Campaign
+from checker.findings import Fault
+from checker.mission import read_mission
+from checker.models import load_models
+from checker.oracle import Verdict
+from checker.pinned import pinned
+from checker.steps import Step
+
+
+def steps_of(folder: Path, files: Mapping[str, str], number: int) -> tuple[Step, ...]:
+    """Write the files, mission.toml among them, and tell of mission `number`, which must fail."""
+    for name, text in files.items():
+        (folder / name).write_text(text)
+    mission, found = read_mission(folder / "mission.toml")
+    assert mission is not None, found
+    models = load_models(mission)
+    given = Campaign(mission, models, pinned(models))
+    failed = fly_one(given.load(models.agent), given.task(number))
+    assert failed.verdict is Verdict.FAIL
+    (bucket,) = group_failures((failed,))
+    return given.story(failed, Fault(bucket, None, None)).steps
