@@ -165,6 +165,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except OSError as problem:
         if problem.errno in _MACHINE:
             where = "the output" if problem.filename is None else f"`{problem.filename}`"
+            if problem.filename is None:
+                _drop_output()
             _complain(f"nddlc: cannot write {where}: {problem.strerror}")
         elif problem.errno in _FORBIDDEN and problem.filename is not None:
             _complain(f"nddlc: cannot use `{problem.filename}`: {problem.strerror}")
@@ -189,6 +191,12 @@ def _complain(text: str) -> None:
     """Write to standard error; where that cannot be written to, the exit code must do."""
     with suppress(OSError):
         click.echo(fitted(text, columns()), err=True)
+
+
+def _drop_output() -> None:
+    """Let what is left of the output vanish: the interpreter would try to write it once more as it ends."""
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _open_streams() -> None:

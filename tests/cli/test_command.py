@@ -242,11 +242,13 @@ def test_an_unknown_code_is_refused(capsys: Captured) -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+@pytest.mark.parametrize("unbuffered", ["", "1"])
 @pytest.mark.parametrize("words", [["load"], ["plan"], ["lint"], ["plan", "--json"]])
-def test_a_full_disk_is_no_bug_of_nddlc(words: list[str], lamp: str) -> None:
+def test_a_full_disk_is_no_bug_of_nddlc(words: list[str], unbuffered: str, lamp: str) -> None:
     command = [sys.executable, "-m", "nddlc.main", *words, lamp]
+    environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}  # what is buffered is written once more at the end
     with Path("/dev/full").open("w", encoding="ascii") as full:
-        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False, env=environment)
     assert done.stderr == "nddlc: cannot write the output: No space left on device\n"
     assert done.returncode == 2
 
