@@ -1,6 +1,7 @@
 """A file beside the text that declares what is unknown in it: one message names it, in place of one for each name."""
 
 import os
+import re
 import stat
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
@@ -22,6 +23,7 @@ _UNKNOWN = (UNKNOWN_NAME, UNKNOWN_TYPE, UNKNOWN_CLASS)
 _FEWEST = 2  # names; a single one is more likely to be misspelt
 _MOST_FILES = 100
 _LARGEST = 2**20  # bytes
+_WORD = re.compile(r"[^\W\d]\w*")
 
 
 def name_missing_include(
@@ -61,7 +63,7 @@ def _bringing(
     best: tuple[tuple[bool, bool, int], str, frozenset[str]] | None = None
     for folder in (loaded.paths[source].parent, LIBRARY):
         for path in _models(folder, real):
-            if real[path] in read:
+            if real[path] in read or not _may_bring(path, unknown):
                 continue
             own, _ = _declarations(path, loaded.dialect, declared)
             brought = frozenset(_with_includes(path, loaded.dialect, declared, real, set()))
@@ -106,12 +108,37 @@ def _models(folder: Path, real: dict[Path, Path]) -> list[Path]:
     return found
 
 
-def _declarations(path: Path, dialect: Dialect, declared: Declared) -> tuple[frozenset[str], tuple[str, ...]]:
+def _may_bring(path: Path, names: list[str]) -> bool:
+    """Whether a file has all these words, or includes others: to read that costs far less than to parse it."""
+    kind = _kind_of(path)
+    if kind is None:
+        return False
+    words, includes = _words_at(path, kind.st_mtime_ns, kind.st_size)
+    return includes or words.issuperset(names)
+
+
+@lru_cache(maxsize=256)
+def _words_at(path: Path, _changed: int, _size: int) -> tuple[frozenset[str], bool]:
+    """The words of a file, and whether it includes another; read anew when it has changed."""
+    try:
+        text = read_text(path)
+    except OSError:
+        text = None
+    return (frozenset(_WORD.findall(text)), "#include" in text) if text is not None else (frozenset(), False)
+
+
+def _kind_of(path: Path) -> os.stat_result | None:
+    """What the file system tells of a regular file that is not too large."""
     try:
         kind = path.stat()
     except OSError:
-        return frozenset(), ()
-    if not stat.S_ISREG(kind.st_mode) or kind.st_size > _LARGEST:
+        return None
+    return kind if stat.S_ISREG(kind.st_mode) and kind.st_size <= _LARGEST else None
+
+
+def _declarations(path: Path, dialect: Dialect, declared: Declared) -> tuple[frozenset[str], tuple[str, ...]]:
+    kind = _kind_of(path)
+    if kind is None:
         return frozenset(), ()
     return _declarations_at(path, dialect, declared, kind.st_mtime_ns, kind.st_size)
 

@@ -252,6 +252,7 @@ _TIDY = (
     (re.compile(r"([(\[]) "), r"\1"),
 )
 _CALL = re.compile(r"(\w)(?<!\bif) \(")
+_LONGEST = 1000  # characters of a statement that may be one: some patterns take the square of them
 _PROSE = 4  # names in a row that are a sentence
 
 
@@ -278,6 +279,8 @@ def find_idiom(b: Builder, first: int, index: int, is_inside: bool) -> Idiom | N
         last += 1
     is_whole = b.kinds[last] in (";", "{", "}")
     text = " ".join(b.texts[first : last + is_whole])
+    if len(text) > _LONGEST:
+        return None
     token = re.fullmatch(rf"({_N} \. {_PATH}) ({_N}) ;", text)
     if token is not None:
         verb = "any" if is_inside else "goal"
