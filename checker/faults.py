@@ -11,12 +11,14 @@ from checker.buckets import Bucket, joined
 from checker.conditions.condition import Condition
 from checker.counterfactual.examples import examples_of
 from checker.counterfactual.missions import Missions
-from checker.counterfactual.ranking import CANCELLED, NO_CAUSES, Causes, RankedLine
+from checker.counterfactual.ranking import CANCELLED, NO_CAUSES, Causes, Claim, RankedLine
 from checker.oracle import Verdict
 
 _Found = TypeVar("_Found")
 
 MOST_SOUGHT = 8  # buckets whose causes and conditions are sought by flights
+_MOST_TOLD = 3  # missions of a bucket on which the cause of a later one is tried
+_WHOLE = (Claim.MENDS, Claim.LOOSENS)  # what a change does that may take the place of another one
 
 
 class Seeker(Protocol):
@@ -58,7 +60,7 @@ def faults_of(
     let: Interruptible = uninterrupted,
 ) -> list[tuple[Bucket, Causes]]:
     """The faults behind buckets, each with its causes: what the first cause of one mends, or the same line where it was
-    flown, is one. So is a bucket without a change that helped, where the first cause of a later one mends it.
+    flown, is one. So is a bucket before that the first cause of a later one mends as well: it is then that of both.
 
     Where a signal ends the search, buckets that it did not come to are faults of their own.
     """
@@ -97,11 +99,21 @@ def _mended(found: Sequence[tuple[Bucket, Causes]], failed: MissionResult, seeke
 def _also_mended(
     found: Sequence[tuple[Bucket, Causes]], causes: Causes, results: Mapping[int, MissionResult], seeker: Seeker
 ) -> list[tuple[Bucket, Causes]]:
-    """The buckets before without a change that helped, which the first cause of a later one mends."""
-    if causes.first is None or causes.first.change is None:
+    """The buckets before that the first cause of a later one mends.
+
+    Where one has a change of its own that helped, which does not mend the later one, several of its missions tell.
+    """
+    first = causes.first
+    if first is None or first.change is None:
         return []
-    helpless = [one for one in found if one[1].first is None or one[1].first.change is None]
-    return [one for one in helpless if seeker.mends(causes.first, results[one[0].example])]
+    mended = []
+    for bucket, known in found:
+        is_helpless = known.first is None or known.first.change is None
+        others = [number for number in bucket.missions if number != bucket.example][: _MOST_TOLD - 1]
+        tried = [bucket.example] if is_helpless else [bucket.example, *others]
+        if (is_helpless or first.claim in _WHOLE) and all(seeker.mends(first, results[one]) for one in tried):
+            mended.append((bucket, known))
+    return mended
 
 
 def _at_one_line(found: Sequence[tuple[Bucket, Causes]], causes: Causes) -> int | None:

@@ -101,6 +101,39 @@ def test_what_a_later_cause_mends_is_one_fault_with_it_where_no_change_was_found
     assert causes.first == replace(flown, among=2)
 
 
+class WiderStub(Stub):
+    """A seeker whose second cause mends the first group as well, but for one mission; the first mends its own alone."""
+
+    def __init__(self, first: RankedLine, second: RankedLine, fails: int | None) -> None:
+        super().__init__(second)
+        self.found = [second, first]
+        self.fails = fails
+
+    def causes(self, missions: Missions) -> Causes:
+        return Causes((self.found.pop(),))
+
+    def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
+        return cause == self.cause and failed.number != self.fails
+
+
+@pytest.mark.parametrize(
+    ("claim", "fails", "is_one"), [(Claim.MENDS, None, True), (Claim.MENDS, 2, False), (Claim.PARTLY, None, False)]
+)
+def test_a_later_cause_that_mends_a_group_before_is_that_of_both(claim: Claim, fails: int | None, is_one: bool) -> None:
+    results = fly(load_linked)
+    (bucket,) = group_failures(results)
+    several, other = bucket.missions[:3], bucket.missions[3]
+    groups = [
+        replace(bucket, missions=several, parts=several[:1]),
+        replace(bucket, missions=(other,), parts=(other,)),
+    ]
+    change = SmallEdit(EditKind.CONSTANT, "a.nddl", 0, 1, "1", "2", 1)
+    narrow, wide = RankedLine(LIMIT, "", Claim.MENDS, change), RankedLine(CONSTANT, "", claim, change)
+    found = faults_of(groups, results, WiderStub(narrow, wide, None if fails is None else several[fails]))
+    firsts = [(len(one.missions), causes.first and causes.first.place) for one, causes in found]
+    assert firsts == ([(4, CONSTANT)] if is_one else [(3, LIMIT), (1, CONSTANT)])
+
+
 def reflying(load: Load) -> Refly:
     return lambda agent, number, seed: fly_one(load(agent), Task(number, seed))
 
