@@ -6,7 +6,7 @@ import pytest
 
 from checker.steps import StepKind
 from runtime.executive.outcome import Draw, Event, EventKind
-from tests.checker.told_steps import steps_of
+from tests.checker.told_steps import JOB_MISSION, steps_of
 
 pytestmark = pytest.mark.once
 
@@ -27,38 +27,19 @@ Dev::Run { int late; late == sampledParameter(LATE); duration == late; }
 Dev dev = new Dev(Internal);
 close();
 """
-MISSION = """
-[mission]
-name = "late"
-final_tick = 60
-
-[[reactor]]
-name = "planner"
-model = "planner.nddl"
-lookahead = 60
-internal = ["job"]
-external = ["dev"]
-
-[[reactor]]
-name = "simulator"
-model = "simulator.nddl"
-lookahead = 1
-internal = ["dev"]
-
-[[goal]]
-timeline = "job"
-predicate = "Do"
-mandatory = true
-
+REDRAWN = (
+    JOB_MISSION
+    + """
 [parameters.LATE]
 mode = "intra"
 update = 10
 """
+)
 
 
 @pytest.mark.parametrize("number", range(6))
 def test_each_draw_stands_before_what_came_of_it(tmp_path: Path, number: int) -> None:
-    files = {"shared.nddl": SHARED, "planner.nddl": PLANNER, "simulator.nddl": SIMULATOR, "mission.toml": MISSION}
+    files = {"shared.nddl": SHARED, "planner.nddl": PLANNER, "simulator.nddl": SIMULATOR, "mission.toml": REDRAWN}
     steps = steps_of(tmp_path, files, number)
     draws = [one.subject[0] for one in steps if isinstance(one.subject, tuple)]
     assert draws

@@ -6,7 +6,7 @@ import pytest
 
 from checker.requested import PlannerChoice
 from checker.steps import StepKind
-from tests.checker.told_steps import steps_of
+from tests.checker.told_steps import JOB_MISSION, steps_of
 
 pytestmark = pytest.mark.once
 
@@ -32,35 +32,12 @@ Dev::Run { duration == ticks; }
 Dev dev = new Dev(Internal);
 close();
 """
-MISSION = """
-[mission]
-name = "open"
-final_tick = 60
-
-[[reactor]]
-name = "planner"
-model = "planner.nddl"
-lookahead = 60
-internal = ["job"]
-external = ["dev"]
-
-[[reactor]]
-name = "simulator"
-model = "simulator.nddl"
-lookahead = 1
-internal = ["dev"]
-
-[[goal]]
-timeline = "job"
-predicate = "Do"
-mandatory = true
-"""
 
 
 @pytest.mark.parametrize("line", ["", "second.ticks == 30;", "second.ticks >= 30;"])
 def test_an_argument_that_no_line_speaks_of_is_told(tmp_path: Path, line: str) -> None:
     planner = PLANNER.replace("second.end == end;", f"second.end == end; {line}")
-    files = {"shared.nddl": SHARED, "planner.nddl": planner, "simulator.nddl": SIMULATOR, "mission.toml": MISSION}
+    files = {"shared.nddl": SHARED, "planner.nddl": planner, "simulator.nddl": SIMULATOR, "mission.toml": JOB_MISSION}
     chosen = [one for one in steps_of(tmp_path, files, 0) if one.kind is StepKind.CHOSEN]
     if line:
         assert chosen == []

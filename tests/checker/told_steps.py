@@ -13,6 +13,31 @@ from checker.oracle import Verdict
 from checker.pinned import pinned
 from checker.steps import Step
 
+# A planner of jobs that a device of a simulator does.
+JOB_MISSION = """
+[mission]
+name = "job"
+final_tick = 60
+
+[[reactor]]
+name = "planner"
+model = "planner.nddl"
+lookahead = 60
+internal = ["job"]
+external = ["dev"]
+
+[[reactor]]
+name = "simulator"
+model = "simulator.nddl"
+lookahead = 1
+internal = ["dev"]
+
+[[goal]]
+timeline = "job"
+predicate = "Do"
+mandatory = true
+"""
+
 
 def steps_of(folder: Path, files: Mapping[str, str], number: int) -> tuple[Step, ...]:
     """Write the files, mission.toml among them, and tell of mission `number`, which must fail."""
