@@ -32,6 +32,7 @@ _NO_MODELS = {
     **dict.fromkeys(MISSION_SUFFIXES, _MISSION),
     **dict.fromkeys((".py", ".md", ".json", ".jsonl", ".sqlite", ".html"), "`nddlc --help` tells what reads others"),
 }
+_HEAD = re.compile(r"^[ \t]*\[[ \t]*mission[ \t]*\]", re.MULTILINE)
 _NAMED = (".nddl", *MISSION_SUFFIXES, ".json", ".jsonl")
 
 
@@ -97,6 +98,18 @@ def models_in(names: tuple[str, ...], directories: tuple[str, ...]) -> list[Path
         else:
             found.update(dict.fromkeys(readable((name,), directories)))
     return list(found)
+
+
+def missions_below(names: tuple[str, ...]) -> list[Path]:
+    """The mission files (.toml) below the directories that are named, but for those that are named themselves."""
+    known = {real_path(Path(name)) for name in names}
+    found: list[Path] = []
+    for name in names:
+        for path in sorted(Path(name).rglob("*.toml")) if Path(name).is_dir() else ():
+            is_read = _is_model(path, path.relative_to(name)) and path.is_file() and path.stat().st_size <= LARGEST
+            if is_read and real_path(path) not in known and _HEAD.search(path.read_text("utf-8", "replace")):
+                found.append(path)
+    return found
 
 
 def models_below(directory: str) -> list[Path]:

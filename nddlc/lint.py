@@ -23,7 +23,16 @@ from nddl_lang.text.sarif import sarif_of
 from nddl_lang.text.source import Span
 from nddl_lang.text.values import json_text
 from nddlc.fitting import colours, say
-from nddlc.inputs import Unusable, chosen_dialect, configured, model_paths, models_in, parts_in, write_text
+from nddlc.inputs import (
+    Unusable,
+    chosen_dialect,
+    configured,
+    missions_below,
+    model_paths,
+    models_in,
+    parts_in,
+    write_text,
+)
 from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.watch import WatchedCommand
@@ -66,13 +75,13 @@ def command(
 ) -> int:
     """Report everything that is wrong with models.
 
-    FILE is a model, a mission file (.toml, or T-REX's .xml or .cfg), or a directory with models; of those, files
-    that others include are looked at as parts of them. Without one it is the folder of the project's settings, or
-    this one. Errors stop a model, warnings are very likely mistakes, remarks are worth a look. Settings stand in
-    nddlc.toml or in [tool.nddlc] of pyproject.toml, upwards from each file. Ends with 0 if nothing weighs as much
-    as --fail-on, with 1 otherwise.
+    FILE is a model, a mission file (.toml, or T-REX's .xml or .cfg), or a directory with models and missions; of
+    the models, files that others include are looked at as parts of them. Without one it is the folder of the
+    project's settings, or this one. Errors stop a model, warnings are very likely mistakes, remarks are worth a
+    look. Settings stand in nddlc.toml or in [tool.nddlc] of pyproject.toml, upwards from each file. Ends with 0 if
+    nothing weighs as much as --fail-on, with 1 otherwise.
     """
-    paths = models_in(files, directories)
+    paths = [*models_in(files, directories), *missions_below(files)]
     # What one run makes lives to its end: looking for garbage would only cost, the more the larger the model.
     gc.disable()
     ctx.call_on_close(gc.enable)

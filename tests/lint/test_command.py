@@ -265,3 +265,20 @@ def test_a_text_in_another_encoding_is_a_text(encoding: str, tmp_path: Path, cap
     found = codes_in("model.nddl", capsys.readouterr().out)
     assert ("NDDL107", 1) in found
     assert "NDDL108" not in dict(found)
+
+
+def test_mission_files_of_a_folder_are_looked_at_with_its_models(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+) -> None:
+    for name in ("planner.nddl", "simulator.nddl", "vehicle.nddl", "mission.toml"):
+        text = Path("models/templates/survey", name).resolve().read_text()
+        (tmp_path / name).write_text(text.replace("lookahead = 900", "lookahed = 900"))
+    (tmp_path / "solver.toml").write_text("[[manager]]\ncomponent = 5\n")  # no mission
+    (tmp_path / ".hidden").mkdir()
+    (tmp_path / ".hidden/mission.toml").write_text("[mission]\nnme = 5\n")
+    monkeypatch.chdir(tmp_path)
+    for words in ([], ["."], ["mission.toml", "."]):
+        assert run(["lint", *words]) == 1
+        shown = capsys.readouterr().out
+        assert shown.startswith("error[NDDL702]: no key `lookahed` in [[reactor]]\n")
+        assert shown.endswith("\n1 error in 3 files\n")
