@@ -163,7 +163,7 @@ class Scanner:
         if self._end < 0:
             self._end = len(self._source.text)
             piece.reach = _BEYOND
-        if self._doubled > 0 and len(self._brackets.open) == 1:
+        if 0 < self._doubled < len(piece.kinds) and len(self._brackets.open) == 1:  # it may have been given back
             leave_out_doubled(piece, self._doubled, base)
         piece.length = self._end - base
         # What the next character is decides whether the last lexeme ends here.
