@@ -198,6 +198,8 @@ def _per_cent(piece: Piece, at: int) -> float | None:
     piece.reach = max(piece.reach, (following.end() if following is not None else at) + 2)
     if following is None or piece.kinds[-1:] not in (["INT"], ["FLOAT"]) or piece.ends[-1] > at:
         return None
+    if _NUMBER.fullmatch(piece.texts[-1]) is None:  # it is told already what is wrong with it
+        return None
     return real(piece.texts[-1]) / 100.0 if text[piece.ends[-1] : at].strip(" ") == "" else None
 
 

@@ -65,6 +65,11 @@ def test_a_byte_order_mark_is_an_error_in_nddl3_only() -> None:
     assert (complaint.code, complaint.span.begin, complaint.span.finish) == (codes.BYTE_ORDER_MARK, 0, 1)
 
 
+@pytest.mark.parametrize("number", ["0x1", "1e9in", "1..5", "0777", "1.5.2"])
+def test_a_per_cent_of_what_is_no_number_is_no_share(number: str) -> None:
+    assert not [each for each in complaints(f"int a = {number}% ;") if "per cent" in (each.help or "")]
+
+
 def test_a_doubled_brace_that_is_no_part_of_what_is_never_closed_is_left_alone() -> None:
     # What begins below `u` is taken for a piece of its own, with its second `{`.
     assert codes.SUPERFLUOUS not in [each.code for each in complaints("p::l{\n u\np{{}}")]
