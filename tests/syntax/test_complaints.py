@@ -70,6 +70,10 @@ def test_a_per_cent_of_what_is_no_number_is_no_share(number: str) -> None:
     assert not [each for each in complaints(f"int a = {number}% ;") if "per cent" in (each.help or "")]
 
 
+def test_two_colons_before_what_is_no_name_end() -> None:
+    assert complaints("eq(\n*\nnot\n;[\n\n object \n::close(); 1e9 {=< ||\n0x1 true constraint\nsuper( % class ")
+
+
 def test_a_doubled_brace_that_is_no_part_of_what_is_never_closed_is_left_alone() -> None:
     # What begins below `u` is taken for a piece of its own, with its second `{`.
     assert codes.SUPERFLUOUS not in [each.code for each in complaints("p::l{\n u\np{{}}")]
