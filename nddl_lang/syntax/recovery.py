@@ -67,7 +67,6 @@ class Recovery:
         b.kinds.append(END)
         self._b = b
         self._kinds = b.kinds
-        self._most = 2 * len(b.kinds) + 100  # lexemes with those that are added: beyond, none of them leads anywhere
         self._known = [diagnostic.span.start for diagnostic in b.piece.diagnostics if diagnostic.code in _LEXICAL]
         self._is_quiet = False
         self._renamed: set[str] = set()  # reserved words that are names in this piece
@@ -108,7 +107,7 @@ class Recovery:
             del values[depth:]
             return first
         if (
-            (len(self._kinds) < self._most and self._insert(states, values, index))
+            self._insert(states, values, index)
             or self._reread(states, index)
             or self._leave_out(states, values, first, index)
         ):
@@ -184,12 +183,7 @@ class Recovery:
             self._report(EXPECTED, index, expected="`=`", found="`==`", help="write `=`", fixes=(fix,))
             kinds[index] = b.texts[index] = "="
             return True
-        if (
-            kinds[index] == "::"
-            and kinds[index - 1] == "IDENT"
-            and following == ["IDENT"]
-            and accepts(states, [".", *following])
-        ):
+        if kinds[index - 1 : index + 2] == ["IDENT", "::", "IDENT"] and accepts(states, [".", "IDENT"]):
             join_paths(b, index, is_quiet=self._is_quiet)
             return True
         if kinds[index] == "[" and "]" in kinds[index:] and accepts(states, ["{", *following]):
