@@ -13,6 +13,8 @@ from nddl_lang.syntax.recovery import Recovery
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS, RULES
 from nddl_lang.syntax.walk import is_deeper
 
+_MOST_MENDS = 20  # of a piece, for each of its lexemes
+
 # Each of these makes a tree at most a few levels deeper; other lexemes only make it wider.
 _DEEPENING = ("||", "&&", "==", "!=", "<", "<=", ">", ">=", "+", "-", "*", "/", "!", "if", "else", "(", "{")
 
@@ -70,12 +72,13 @@ def _give_up(b: Builder) -> None:
 
 
 def _run(b: Builder) -> list[Any]:
-    """The statements in the lexemes of `b`. Every step shifts one, reduces, or mends; so it ends."""
+    """The statements in the lexemes of `b`. Each step shifts, reduces, or mends, and mends are counted: so it ends."""
     kinds = [*b.kinds, END]
     states = [0]
     values: list[Any] = []
     actions, gotos, makers, passed_on = ACTIONS, GOTOS, _MAKERS, _PASSED_ON
     recovery: Recovery | None = None
+    mends = most = 0
     index = 0
     kind = kinds[0]
     action = actions[0].get(kind)
@@ -84,6 +87,10 @@ def _run(b: Builder) -> list[Any]:
             if recovery is None:
                 recovery = Recovery(b, _MAKERS)
                 kinds = b.kinds
+                most = _MOST_MENDS * len(kinds)
+            mends += 1
+            if mends > most:  # some of them led nowhere
+                return [break_statement(b, b.piece.span(0, b.piece.length))]
             index = recovery.recover(states, values, index)
             kind = kinds[index]
             action = actions[states[-1]].get(kind)

@@ -6,7 +6,9 @@ import pytest
 
 from nddl_lang.syntax import codes
 from nddl_lang.syntax.dialect import Dialect, declared_dialect
+from nddl_lang.syntax.nodes import BrokenStatement
 from nddl_lang.syntax.parser import parse
+from nddl_lang.syntax.recovery import Recovery
 from nddl_lang.text.diagnostic import Code, Diagnostic
 from nddl_lang.text.source import Source
 from tests.syntax.marked import marked, unmarked
@@ -68,6 +70,12 @@ def test_a_byte_order_mark_is_an_error_in_nddl3_only() -> None:
 @pytest.mark.parametrize("number", ["0x1", "1e9in", "1..5", "0777", "1.5.2"])
 def test_a_per_cent_of_what_is_no_number_is_no_share(number: str) -> None:
     assert not [each for each in complaints(f"int a = {number}% ;") if "per cent" in (each.help or "")]
+
+
+def test_mends_that_lead_nowhere_come_to_an_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Recovery, "recover", lambda _, states, values, index: index)
+    (statement,) = parse(Source("t", "int a = = 1;")).module.statements
+    assert isinstance(statement, BrokenStatement)
 
 
 def test_two_colons_before_what_is_no_name_end() -> None:
