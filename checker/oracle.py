@@ -109,7 +109,7 @@ def _dead(events: Sequence[Event]) -> Reason | None:
     said = [one for one in single_events(events) if one.kind is EventKind.OBSERVATION and one.predicate == _FAILED]
     found = [(one.tick, one.timeline) for one in said]
     if isinstance(events, EventLog):
-        found += [(int(each.ticks[0]), each.timeline) for _, each in events.published() if each.predicate == _FAILED]
+        found += events.first_in_runs(_FAILED)
     if not found:
         return None
     tick, timeline = min(found)

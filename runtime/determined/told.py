@@ -66,9 +66,20 @@ class Told:
             found.append(PublishedColumns(name, short, rows.take(at), given, arguments, indices, symbols))
         return tuple(found)
 
+    def first_of(self, predicate: str) -> tuple[int, str] | None:
+        """Tick and timeline of the first observation of a predicate, by name at one tick; None if there is none."""
+        is_meant = np.array([name == predicate for name in self.program.model.short_names])
+        told = np.flatnonzero(is_meant.take(np.asarray(self.log.rows).take(self._starts() + KIND)))
+        first = told[: len(self.program.model.lines)]  # among them all of the first tick
+        return min((self.head(index)[:2] for index in first.tolist()), default=None)
+
+    def _starts(self) -> Array:
+        """Where the rows of the log begin that were told."""
+        return ROW * np.asarray(self.log.told)[: self.log.told_count]
+
     def _kinds(self) -> list[tuple[int, int, Array, Array]]:
         """What was told by timeline and predicate: indices, and where the rows of the log begin."""
-        starts = ROW * np.asarray(self.log.told)[: self.log.told_count]
+        starts = self._starts()
         rows, many = np.asarray(self.log.rows), len(self.program.model.short_names)
         kinds = rows.take(starts + LINE) * many + rows.take(starts + KIND)
         found = []
@@ -165,6 +176,11 @@ class StoredObservations:
                 )
             )
         return tuple(found)
+
+    def first_of(self, predicate: str) -> tuple[int, str] | None:
+        """Tick and timeline of the first observation of a predicate, by name at one tick; None if there is none."""
+        of_kinds = ((int(each.ticks[0]), each.timeline) for each in self.kinds if each.predicate == predicate)
+        return min(of_kinds, default=None)
 
     def stored(self) -> "StoredObservations":
         """These."""

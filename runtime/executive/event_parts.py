@@ -19,6 +19,9 @@ class EventColumns(Protocol):
     def published(self) -> tuple[PublishedColumns, ...]:
         """All observations, by timeline and predicate."""
 
+    def first_of(self, predicate: str) -> tuple[int, str] | None:
+        """Tick and timeline of the first observation of a predicate, by name at one tick; None if there is none."""
+
     def causes(self, index: int) -> tuple[int, ...]:
         """What caused the observation at an index."""
 

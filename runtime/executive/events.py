@@ -25,11 +25,15 @@ class EventLog(EventParts, Sequence[Event]):
 
     def published(self) -> list[tuple[EventColumns, PublishedColumns]]:
         """The observations in runs, as columns, each with what expands them."""
-        sources: dict[int, EventColumns] = {}
-        for part in self.all_parts:
-            if isinstance(part, EventRun):
-                sources[id(part.columns)] = part.columns
-        return [(source, each) for source in sources.values() for each in source.published()]
+        return [(source, each) for source in self._sources() for each in source.published()]
+
+    def first_in_runs(self, predicate: str) -> list[tuple[int, str]]:
+        """Tick and timeline of the first observation of a predicate in the runs of each simulator that tells it."""
+        return [found for source in self._sources() if (found := source.first_of(predicate)) is not None]
+
+    def _sources(self) -> list[EventColumns]:
+        sources = {id(part.columns): part.columns for part in self.all_parts if isinstance(part, EventRun)}
+        return list(sources.values())
 
     def changed(self, change: Callable[[Event], Event]) -> "EventLog":
         """The same events, single ones changed."""

@@ -193,3 +193,17 @@ def test_two_simulators_that_run_ahead_tell_in_the_order_of_time() -> None:
     ticks = [event.tick for event in fly(one, two, until=600).events]
     assert ticks == sorted(ticks) and len(ticks) > 500
     assert fly(one, two, until=600, every_tick=True).events == fly(one, two, until=600).events
+
+
+def test_the_first_observation_of_a_predicate_is_found_without_expanding_any() -> None:
+    events = flown()[0].events
+    assert isinstance(events, EventLog)
+    single = [(one.tick, one.timeline) for one in single_events(events) if one.kind is EventKind.OBSERVATION]
+    firsts: dict[str, tuple[int, str]] = {}
+    for _, tick, timeline, predicate in heads_of(events):
+        if (tick, timeline) not in single:
+            firsts[predicate] = min(firsts.get(predicate, (tick, timeline)), (tick, timeline))
+    assert {"Step", "Holds", "Ready"} <= firsts.keys()
+    for log in (events, pickle.loads(pickle.dumps(events))):
+        assert {each: log.first_in_runs(each) for each in firsts} == {each: [one] for each, one in firsts.items()}
+        assert log.first_in_runs("Failed") == []
