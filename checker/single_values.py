@@ -2,16 +2,17 @@
 
 from collections.abc import Iterator
 
+from compiler.constants import single
 from compiler.instructions import all_instructions
 from compiler.program import Assign, Constant, DomainConstant, GlobalVariable, NewGlobal, Operand, Post, Program
 
 
 def single_value(domain: DomainConstant | None) -> float | int | bool | str | None:
     """The one value that a domain leaves; None where it leaves several, or nothing is known."""
-    if domain is None:
-        return None
-    values = set(domain.interval if domain.interval is not None else domain.values or ())
-    return values.pop() if len(values) == 1 else None
+    if domain is None or domain.interval is None:
+        return single(domain)
+    lower, upper = domain.interval
+    return lower if lower == upper else None
 
 
 def numbers_of(program: Program) -> Iterator[tuple[Operand, float | str]]:

@@ -28,6 +28,7 @@ from lsp.solver_names import models_of_solver, named_in_solver, solver_values
 from lsp.toml_kinds import TomlKind, choices_of, described, kind_of, root_schema, schema_of, variants
 from lsp.uris import uri_of
 from nddl_lang.lint.pages import PAGES
+from nddl_lang.mission_suffixes import MISSION_HEAD
 from nddl_lang.semantics.natives import SELF_ACTIVATING, TIMELINE
 from nddl_lang.semantics.schema import Class, EnumValue, GlobalReference, Kind, Predicate, Variable
 from nddl_lang.text.source import Span
@@ -41,7 +42,6 @@ _GIVEN = (("goal",), ("property",))  # tables of tokens with arguments
 _OBJECTS = {**dict.fromkeys(_TIMELINES, (TIMELINE,)), "resource": tuple(sorted(SELF_ACTIVATING))}  # by key: of a class
 _CODED = re.compile(r"^[ \t]*code[ \t]*=", re.MULTILINE)  # a reactor in Python, of which nothing is proved
 _COMPONENT = re.compile(r"""^[ \t]*component[ \t]*=[ \t]*["']([^"'\n]*)["']""", re.MULTILINE)
-_HEAD = re.compile(r"^[ \t]*\[mission\]", re.MULTILINE)
 # Commands of the server.
 CHECK = "nddl.check"
 EXPLAIN = "nddl.explain"
@@ -111,7 +111,7 @@ def mission_definition(
 
 def mission_lenses(mission: OpenMission) -> list[CodeLens]:
     """What can be done with a mission file: fly some of its missions, fly all, explain what failed last, certify it."""
-    found = _HEAD.search(mission.text)
+    found = MISSION_HEAD.search(mission.text)
     if found is None:
         return []
     place = mission.lines.range(found.start(), found.end())

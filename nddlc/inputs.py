@@ -13,7 +13,7 @@ import click
 
 from nddl_lang.lint.configuration import find_configuration, read_configuration
 from nddl_lang.lint.settings import Settings
-from nddl_lang.mission_suffixes import MISSION_SUFFIXES
+from nddl_lang.mission_suffixes import MISSION_HEAD, MISSION_SUFFIXES
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.roots import parts_of, roots_among
 from nddl_lang.text.nearest import nearest
@@ -32,7 +32,6 @@ _NO_MODELS = {
     **dict.fromkeys(MISSION_SUFFIXES, _MISSION),
     **dict.fromkeys((".py", ".md", ".json", ".jsonl", ".sqlite", ".html"), "`nddlc --help` tells what reads others"),
 }
-_HEAD = re.compile(r"^[ \t]*\[[ \t]*mission[ \t]*\]", re.MULTILINE)
 _NAMED = (".nddl", *MISSION_SUFFIXES, ".json", ".jsonl")
 
 
@@ -107,7 +106,7 @@ def missions_below(names: tuple[str, ...]) -> list[Path]:
     for name in names:
         for path in sorted(Path(name).rglob("*.toml")) if Path(name).is_dir() else ():
             is_read = _is_model(path, path.relative_to(name)) and path.is_file() and path.stat().st_size <= LARGEST
-            if is_read and real_path(path) not in known and _HEAD.search(path.read_text("utf-8", "replace")):
+            if is_read and real_path(path) not in known and MISSION_HEAD.search(path.read_text("utf-8", "replace")):
                 found.append(path)
     return found
 

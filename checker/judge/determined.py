@@ -48,9 +48,8 @@ class Determined:
         k = unfixed[0]
         if isinstance(values[k], PartRange):
             return False
-        if self.owners[k] == _CHILD or (
-            frame.tok is None and self.tokens[k] >= 0
-        ):  # the script has no token of its own
+        is_of_script = frame.tok is None and self.tokens[k] >= 0  # which has no token of its own
+        if self.owners[k] == _CHILD or is_of_script:
             return frame.tokens[self.tokens[k]] is not None
         return self.owners[k] == _OWN and _CHILD not in self.owners
 

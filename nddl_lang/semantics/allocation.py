@@ -7,7 +7,7 @@ from nddl_lang.semantics.codes import CLASS_IS_CLOSED, NO_BASE_CONSTRUCTOR, NO_C
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.names import find
 from nddl_lang.semantics.schema import Chosen, Class, Constructor, Kind, Type
-from nddl_lang.semantics.scope import BlockKind, Context, Deferred, Scope
+from nddl_lang.semantics.scope import BlockKind, Context, Deferred, Scope, is_told
 from nddl_lang.semantics.symbol_table import SymbolTable
 from nddl_lang.semantics.typenames import find_defined_class
 from nddl_lang.semantics.types import fits, object_type
@@ -53,8 +53,7 @@ def _tell_unquoted(context: Context, scope: Scope, new: NewExpr) -> None:
             continue
         name = argument.parts[0].name
         is_text = all(one.parameters[index].type.kind is Kind.STRING for one in fitting)
-        is_told = name in context.reported or scope.is_doubtful(name) or context.symbols.is_doubtful(name)
-        if is_text and not is_told and find(context, scope, name) is None:
+        if is_text and not is_told(context, scope, name) and find(context, scope, name) is None:
             context.reported.add(name)
             fix = Fix(f'write `"{name}"`', (Edit(argument.span, f'"{name}"'),), safe=False)
             help_ = f'a text stands in quotes: `"{name}"`'

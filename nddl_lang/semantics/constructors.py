@@ -38,7 +38,7 @@ from nddl_lang.semantics.schema import (
     Type,
     Variable,
 )
-from nddl_lang.semantics.scope import BlockKind, Context, Scope
+from nddl_lang.semantics.scope import BlockKind, Context, Scope, is_told
 from nddl_lang.semantics.typenames import find_declared_type
 from nddl_lang.semantics.values import check_value, constant
 from nddl_lang.syntax.nodes import Assignment, BrokenStatement, ConstructorDecl, NewExpr, PathExpr, SuperCall
@@ -146,9 +146,12 @@ def _tell_undeclared(context: Context, scope: Scope, base: Class | None, node: S
         ):
             continue
         word = argument.parts[0].name
-        is_told = word in context.reported or scope.is_doubtful(word) or context.symbols.is_doubtful(word)
         visible = (*scope.visible(), *context.symbols.names("global", "value"))
-        is_known = is_told or find(context, scope, word) is not None or nearest(word, visible) is not None
+        is_known = (
+            is_told(context, scope, word)
+            or find(context, scope, word) is not None
+            or nearest(word, visible) is not None
+        )
         if not is_known and name is not None:
             context.reported.add(word)
             wanted = next(iter(types))

@@ -33,7 +33,7 @@ from nddl_lang.semantics.schema import (
     TokenReference,
     TokenVariableReference,
 )
-from nddl_lang.semantics.scope import BlockKind, Context, Scope
+from nddl_lang.semantics.scope import BlockKind, Context, Scope, is_told
 from nddl_lang.semantics.types import reference_type
 from nddl_lang.syntax.nodes import BinaryExpr, Expr, Identifier, PathExpr
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
@@ -234,7 +234,7 @@ def _find_token_variable(
                 last=other_name(name.name, predicate) or only,
             )
             if complaint.help is None and 0 < len(names) <= MOST_NAMED:
-                named = f"its {_listed('parameter', names)}"
+                named = f"its {listed('parameter', names)}"
                 members = _members(context, predicate.class_name)
                 is_short = 0 < len(members) <= MOST_NAMED
                 complaint = _with(
@@ -265,12 +265,12 @@ def complain_unknown_member(context: Context, class_name: str, name: Identifier,
     members = [each for each in _members(context, class_name) if each != but]
     complaint = suggest_name(complaint, name, members)
     if complaint.help is None and 0 < len(members) <= MOST_NAMED:
-        complaint = _with(complaint, f"its {_listed('member', members)}", ())
+        complaint = _with(complaint, f"its {listed('member', members)}", ())
     context.complain(complaint)
 
 
-def _listed(what: str, names: list[str]) -> str:
-    """`parameters are `a`, `b``, or `member is `c``."""
+def listed(what: str, names: list[str]) -> str:
+    """A help lists names so: `parameters are `a`, `b``, or `member is `c``."""
     named = ", ".join(f"`{name}`" for name in names)
     return f"{what}s are {named}" if len(names) > 1 else f"{what} is {named}"
 
@@ -295,7 +295,7 @@ def complain_unknown(
     What may have been meant is looked for among values, and in `tables` too; of what is assigned to, among members.
     """
     symbols, word = context.symbols, name.name
-    if word in context.reported or scope.is_doubtful(word) or symbols.is_doubtful(word):
+    if is_told(context, scope, word):
         return
     context.reported.add(word)
     if word == "this":

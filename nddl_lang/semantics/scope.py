@@ -229,3 +229,8 @@ def _declared_in(body: tuple[RuleStatement, ...]) -> dict[str, Span]:
             case _:
                 pass
     return names
+
+
+def is_told(context: Context, scope: Scope, name: str) -> bool:
+    """Whether nothing more is to be said of an unknown name: it is told, or what may declare it was not understood."""
+    return name in context.reported or scope.is_doubtful(name) or context.symbols.is_doubtful(name)

@@ -24,6 +24,7 @@ from nddl_lang.semantics.names import (
     complain_unknown,
     find,
     find_script_token,
+    listed,
     resolve_dotted,
     suggest_name,
 )
@@ -222,8 +223,7 @@ def find_predicate(context: Context, owner: Class, name: Identifier, *, is_bare:
             )
         complaint = suggest_name(complaint, name, own)
         if not complaint.fixes and not is_bare and 0 < len(own) <= MOST_NAMED:
-            listed = ", ".join(f"`{each}`" for each in own)
-            named = f"its predicates are {listed}" if len(own) > 1 else f"its predicate is {listed}"
+            named = f"its {listed('predicate', own)}"
             complaint = replace(complaint, help="; ".join(each for each in (named, complaint.help) if each))
         if is_bare and complaint.help is None:
             help_ = "the name of a token follows its predicate without a comma: `object.predicate name`"
