@@ -1,15 +1,15 @@
 """Hold what a solver's filters and handlers match against the models that are planned with it."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
 
 from checker.codes import NO_MATCH
 from checker.mission import Mission
+from checker.respelt import rewritten
 from compiler.instructions import all_instructions
 from compiler.program import TOKEN_TIMES, NewVariable, Program
-from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
+from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
-from nddl_lang.text.source import Source, Span
+from nddl_lang.text.source import Source
 from runtime.solver.configuration.element import Attribute
 from runtime.solver.configuration.read import written_matches
 
@@ -63,13 +63,8 @@ def _variables(predicate: Attribute | None, programs: Sequence[Program]) -> set[
 
 
 def _complaint(attribute: Attribute, field: str, known: set[str]) -> Diagnostic:
+    name, close = attribute.value, nearest(attribute.value, sorted(known))
+    advice = f"did you mean `{close}`?" if close is not None else None
     what = field.removesuffix("_name").removeprefix("parent_")
-    span, name = attribute.span, attribute.value
-    complaint = NO_MATCH.at(span, what=what, name=name)
-    close = nearest(name, sorted(known))
-    at = span.text.rfind(name)
-    if close is None or at < 0:
-        return complaint
-    edit = Edit(Span(span.anchor, span.start + at, span.start + at + len(name)), close)
-    fix = Fix(f"write `{close}`", (edit,), safe=False)
-    return replace(complaint, help=f"did you mean `{close}`?", fixes=(fix,))
+    complaint = NO_MATCH.at(attribute.span, what=what, name=name, help=advice)
+    return complaint if close is None else rewritten(complaint, name, close)
