@@ -27,8 +27,8 @@
 #   make variants     the eight mistakes of models/auv/bugs, each explained
 #   make mutants      MUTANTS (2000) faulty missions, flown compiled, interpreted and by the general engine, and judged
 #   make renames      rename every name of every model, and compare what the models mean
-#   make editor-proof EXAMPLES (100000) scripts of keystrokes beside a cold start, as many edits and hostile messages;
-#                     every model by the server and by `nddlc lint`
+#   make editor-proof EXAMPLES (100000) scripts of keystrokes beside a cold start, as many edits and hostile messages,
+#                     as many random texts; every model by the server and by `nddlc lint`
 #   make vsix         the extension for Visual Studio Code (npm fetches its tools; what it makes loads nothing)
 #   make conformance  the conformance suite of NDDL
 #   make corpus       the public models, where CORPUS=directory holds checkouts of nasa/europa and fredpy/trex2-agent
@@ -224,6 +224,7 @@ renames: build
 editor-proof: build
 	$(BIN)/python -m tests.lsp.keystroke_proof $(EXAMPLES)
 	$(BIN)/python -m tests.lsp.hostile_proof $(EXAMPLES)
+	$(BIN)/python -m tests.lsp.random_texts $(EXAMPLES)
 	NDDLC_EDITOR=all $(PYTEST) tests/lsp/test_scheduling.py tests/lsp/test_one_engine.py
 
 vsix:

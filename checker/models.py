@@ -8,7 +8,7 @@ from pathlib import Path
 
 from checker.figures import figure_misfits
 from checker.influence import Influence, lines_of_influence
-from checker.mission import Mission, read_mission
+from checker.mission import Mission, parse_mission
 from checker.model_fit import complete, find_misfits, sampling_misfits
 from checker.model_graph import read_model
 from checker.names import relative_name
@@ -25,6 +25,7 @@ from nddl_lang.semantics.callables import Callables
 from nddl_lang.syntax.includes import OpenText
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.read import NotAFileError, read_source, read_text
+from nddl_lang.text.source import Source
 from runtime.executive.configuration import AgentConfiguration
 from runtime.solver.configuration.read import read_configuration
 from runtime.user.library import load_library
@@ -51,9 +52,9 @@ class ModelSet:
         return any(diagnostic.severity is Severity.ERROR for diagnostic in self.diagnostics)
 
 
-def examine(path: Path) -> tuple[Diagnostic, ...]:
-    """All that is wrong with the mission file at `path` and its models; raises OSError if it cannot be read."""
-    mission, found = read_mission(path)
+def examine(source: Source, root: Path) -> tuple[Diagnostic, ...]:
+    """All that is wrong with a mission file in the folder `root`, and with its models."""
+    mission, found = parse_mission(source, root)
     return found if mission is None else (*found, *load_models(mission).diagnostics)
 
 

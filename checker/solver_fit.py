@@ -4,13 +4,12 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from checker.codes import NO_MATCH
 from checker.mission import Mission
-from checker.respelt import rewritten
 from compiler.instructions import all_instructions
 from compiler.program import TOKEN_TIMES, NewVariable, Program
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Source
-from runtime.solver.configuration.element import Attribute
+from runtime.solver.configuration.element import Attribute, respelt
 from runtime.solver.configuration.read import written_matches
 
 _OF_TOKENS = (*TOKEN_TIMES, "object", "state", "time")
@@ -67,4 +66,4 @@ def _complaint(attribute: Attribute, field: str, known: set[str]) -> Diagnostic:
     advice = f"did you mean `{close}`?" if close is not None else None
     what = field.removesuffix("_name").removeprefix("parent_")
     complaint = NO_MATCH.at(attribute.span, what=what, name=name, help=advice)
-    return complaint if close is None else rewritten(complaint, name, close)
+    return respelt(complaint, name, close)

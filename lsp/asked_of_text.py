@@ -1,6 +1,6 @@
 """What editors ask about texts: diagnostics, fixes, formatting, colours, hints, folds, links and lenses."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from lsprotocol import types
 
@@ -11,6 +11,7 @@ from lsp.lenses import code_lenses, counting
 from lsp.mending import (
     can_fix_all,
     fix_all,
+    fix_all_of_mission,
     formatting,
     formatting_of_lines,
     formatting_of_statement,
@@ -63,20 +64,30 @@ def _answer_actions(session: Session) -> None:
             *mends(view, params.range, documents.conversion(), documents.folders),
             *refactorings(documents, view, params.range),
         ]
-        if can_fix_all(view):
-            title = "mend all that can be mended safely"
-            action = types.CodeAction(title, _FIX_ALL, data={"uri": view.document.uri})
-            if session.resolves_actions:
-                found.append(action)
-            elif only is not None and _is_wanted(_FIX_ALL, only):
-                action.edit = fix_all(documents, view)
-                found.append(action)
-        return [each for each in found if only is None or _is_wanted(_name(each.kind), only)]
+        if can_fix_all(view.snapshot.diagnostics, view.parse.source.name):
+            found += fixing_all(view.document.uri, only, lambda: fix_all(documents, view))
+        return wanted(found, only)
 
     def of_mission(mission: OpenMission, params: types.CodeActionParams) -> list[types.CodeAction]:
-        conversion = session.documents.conversion()
-        found = mends_of_mission(session.missions.told(mission), mission, params.range, conversion)
-        only = params.context.only
+        told, only = session.missions.told(mission), params.context.only
+        found = mends_of_mission(told, mission, params.range, session.documents.conversion())
+        if can_fix_all(told, str(mission.path)):
+            found += fixing_all(mission.uri, only, lambda: fix_all_of_mission(session.missions, mission))
+        return wanted(found, only)
+
+    def fixing_all(
+        uri: str, only: Sequence[types.CodeActionKind | str] | None, edit: Callable[[], types.WorkspaceEdit | None]
+    ) -> list[types.CodeAction]:
+        action = types.CodeAction("mend all that can be mended safely", _FIX_ALL, data={"uri": uri})
+        if not session.resolves_actions:
+            if only is None or not _is_wanted(_FIX_ALL, only):
+                return []
+            action.edit = edit()
+        return [action]
+
+    def wanted(
+        found: list[types.CodeAction], only: Sequence[types.CodeActionKind | str] | None
+    ) -> list[types.CodeAction]:
         return [each for each in found if only is None or _is_wanted(_name(each.kind), only)]
 
     options = types.CodeActionOptions(kinds, resolve_provider=True)
@@ -85,9 +96,11 @@ def _answer_actions(session: Session) -> None:
     @session.feature(types.CODE_ACTION_RESOLVE)
     async def resolve(action: types.CodeAction) -> types.CodeAction:
         uri = action.data.get("uri") if isinstance(action.data, dict) else None
-        view = await session.view(str(uri))
+        view, mission = await session.view(str(uri)), session.missions.find(str(uri))
         if view is not None:
             action.edit = fix_all(session.documents, view)
+        elif mission is not None:
+            action.edit = fix_all_of_mission(session.missions, mission)
         return action
 
 

@@ -10,7 +10,7 @@ from lsprotocol.types import CodeAction, CodeActionKind, Position, Range, TextEd
 from lsp.diagnostics import Conversion
 from lsp.documents import Documents
 from lsp.meaning import piece_at
-from lsp.mission_texts import OpenMission
+from lsp.mission_texts import MissionTexts, OpenMission
 from lsp.open_text import DocumentContext
 from lsp.positions import Lines
 from lsp.refactorings import additions
@@ -56,16 +56,25 @@ def fix_all(documents: Documents, view: DocumentContext) -> WorkspaceEdit | None
     """The edit that carries out all fixes of a text that keep the meaning; None where there is nothing to mend."""
     text = view.parse.source.text
     after = mend(text, lambda changed: documents.probe(view.document.key, changed).diagnostics).text
-    edits = list(_difference(view.document.lines, after))
-    return WorkspaceEdit({view.document.uri: edits}) if edits else None
+    return _written(view.document.uri, view.document.lines, after)
 
 
-def can_fix_all(view: DocumentContext) -> bool:
-    """Whether something in the text can be mended without a change of meaning."""
-    source = view.parse.source
+def fix_all_of_mission(missions: MissionTexts, mission: OpenMission) -> WorkspaceEdit | None:
+    """The same for a mission file or a solver's configuration."""
+    after = mend(mission.text, lambda changed: missions.probe(mission, changed)).text
+    return _written(mission.uri, mission.lines, after)
+
+
+def _written(uri: str, lines: Lines, after: str) -> WorkspaceEdit | None:
+    edits = list(_difference(lines, after))
+    return WorkspaceEdit({uri: edits}) if edits else None
+
+
+def can_fix_all(found: Iterable[Diagnostic], name: str) -> bool:
+    """Whether something in the text of that name can be mended without a change of meaning."""
     return any(
-        fix.safe and all(edit.span.source is source for edit in fix.edits)
-        for diagnostic in view.snapshot.diagnostics
+        fix.safe and all(edit.span.source.name == name for edit in fix.edits)
+        for diagnostic in found
         for fix in diagnostic.fixes
     )
 

@@ -209,10 +209,14 @@ class MissionTexts:
 
     def complaints(self, mission: OpenMission, conversion: Conversion) -> tuple[Shown, ...]:
         """What is wrong with a mission file and with what it asks of its models."""
-        source = Source(str(mission.path), mission.text)
-        found = self._examine(source, mission.path.parent, self._is_trusted)
-        self._found[mission.uri] = told = tuple(each for each in found if each.span.source.name == source.name)
+        self._found[mission.uri] = told = self.probe(mission, mission.text)
         return tuple(map(conversion.shown, told))
+
+    def probe(self, mission: OpenMission, text: str) -> tuple[Diagnostic, ...]:
+        """What would be wrong with a mission file if `text` stood there."""
+        source = Source(str(mission.path), text)
+        found = self._examine(source, mission.path.parent, self._is_trusted)
+        return tuple(each for each in found if each.span.source.name == source.name)
 
     def told(self, mission: OpenMission) -> tuple[Diagnostic, ...]:
         """What `complaints` found last."""

@@ -35,6 +35,7 @@ from nddlc.inputs import (
 )
 from nddlc.known import known_callables
 from nddlc.main import named
+from nddlc.mended_files import MendedFile, mended_files, mission_findings
 from nddlc.watch import WatchedCommand
 
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
@@ -96,8 +97,8 @@ def command(
     set_up = [(path, *_settings(path, codes, fail_on, is_trusted)) for path in paths]
     # All is mended before anything is looked at: a mission or a model has part in what is mended in another file.
     for path, settings, _ in set_up if fix or unsafe_fixes or only_show else ():
-        if path.suffix not in MISSION_SUFFIXES:
-            mended += _mend(checker, path, settings, only_show=only_show, unsafe=unsafe_fixes, is_text=style == "text")
+        for changed in mended_files(checker, path, settings, unsafe=unsafe_fixes):
+            mended += _mend(changed, only_show=only_show, is_text=style == "text")
     if only_show:
         return int(mended > 0)
     for path, settings, gaps in set_up:
@@ -125,13 +126,7 @@ def _check(checker: Checker, path: Path, settings: Settings) -> tuple[Diagnostic
         return checker.check(path, settings)
     if path.name in (NAME, PROJECT):
         return tuple(read_configuration(path)[1])
-    found: tuple[Diagnostic, ...]
-    source = read_source(path)
-    if named("runtime.solver.configuration.read_toml:is_solver_text")(path.name, source.text):
-        found = named("runtime.solver.configuration.read:read_configuration")(source)[1]
-    else:
-        found = named("checker.models:examine")(path)
-    return tuple(settings.choose(found))
+    return tuple(settings.choose(mission_findings(read_source(path), path.parent)))
 
 
 def _proved(
@@ -182,22 +177,20 @@ def _settings(
     return settings, gaps
 
 
-def _mend(checker: Checker, path: Path, settings: Settings, *, only_show: bool, unsafe: bool, is_text: bool) -> int:
-    """Mend one file, or show how; how many fixes that took."""
-    outcome = checker.mend(path, settings, unsafe=unsafe)
-    if outcome is None:
-        click.echo(f"nddlc: `{path}` is not UTF-8 text and is left as it is", err=True)
+def _mend(changed: MendedFile, *, only_show: bool, is_text: bool) -> int:
+    """Write one file with its fixes, or show how it would be; how many fixes that took."""
+    if changed.mended is None:
+        click.echo(f"nddlc: `{changed.path}` is not UTF-8 text and is left as it is", err=True)
         return 0
-    before, mended = outcome
-    if mended.text == before:
+    name, before, after = str(changed.path), changed.before, changed.mended.text
+    if after == before:
         return 0
     if not only_show:
-        write_text(path, mended.text)
+        write_text(changed.path, after)
     elif is_text:
-        old, new = before.splitlines(keepends=True), mended.text.splitlines(keepends=True)
-        for line in difflib.unified_diff(old, new, str(path), str(path)):
+        for line in difflib.unified_diff(before.splitlines(keepends=True), after.splitlines(keepends=True), name, name):
             click.echo(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n", nl=False)
-    return mended.count
+    return changed.mended.count
 
 
 def _tell(found: list[Diagnostic], files: list[str], style: str, mended: int, statistics: bool) -> None:

@@ -14,8 +14,8 @@ PROOF_PAGES = (
         "The lines of a rule, with the constants of the model, contradict each other.",
         "A token of the predicate can be in no plan. `nddlc lint --prove` asks z3, which is told what the lines mean; "
         "the notes are a smallest set of lines without a solution: without any one of them there is one.",
-        "int FLIGHT_MAX = 180;\n" + _HEAD + "Drone::Fly { duration <= FLIGHT_MAX; duration >= 200; }\n" + _TAIL,
-        "int FLIGHT_MAX = 280;\n" + _HEAD + "Drone::Fly { duration <= FLIGHT_MAX; duration >= 200; }\n" + _TAIL,
+        "int LEG = 60;\n" + _HEAD + "Drone::Fly { way <= 3; duration <= way * LEG; duration >= 200; }\n" + _TAIL,
+        "int LEG = 80;\n" + _HEAD + "Drone::Fly { way <= 3; duration <= way * LEG; duration >= 200; }\n" + _TAIL,
     ),
     RulePage(
         DEAD_BRANCH,

@@ -2,12 +2,11 @@
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from nddl_lang.analysis import Analyser
 from nddl_lang.lint.linter import Linter
-from nddl_lang.lint.mending import Mended, mend
+from nddl_lang.lint.mending import Mended, mend, text_to_mend
 from nddl_lang.lint.settings import Settings
 from nddl_lang.lint.unused import OF_ALL_MODELS
 from nddl_lang.misspelt_declaration import name_misspelt_part
@@ -74,12 +73,10 @@ class Checker:
 
     def mend(self, path: Path, settings: Settings, *, unsafe: bool) -> tuple[str, Mended] | None:
         """The text of a file and how it is after its fixes; None where it is no UTF-8 text."""
-        content = read_named(path)
-        text = decode(content)
-        if text.encode() != content:
+        text = text_to_mend(path)
+        if text is None:
             return None
-        # What weighs less than an error for the project is still mended: only what it ignores is not.
-        quiet = replace(settings, severities=tuple(each for each in settings.severities if each[1] is None))
+        quiet = settings.for_mending()
         return text, mend(text, lambda changed: self._check(Source(str(path), changed), quiet), unsafe=unsafe)
 
     def _check(self, source: Source, settings: Settings, *, is_counted: bool = False) -> tuple[Diagnostic, ...]:

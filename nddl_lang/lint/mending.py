@@ -3,8 +3,10 @@
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 from nddl_lang.text.diagnostic import Diagnostic, Fix, Severity
+from nddl_lang.text.read import decode, read_named
 from nddl_lang.text.render import apply_edits
 
 Check = Callable[[str], tuple[Diagnostic, ...]]
@@ -18,6 +20,13 @@ class Mended:
     text: str
     count: int
     left: tuple[Diagnostic, ...]
+
+
+def text_to_mend(path: Path) -> str | None:
+    """The text of a file; None where it is no UTF-8 text, which could not be written back as it was."""
+    content = read_named(path)
+    text = decode(content)
+    return text if text.encode() == content else None
 
 
 def mend(text: str, check: Check, *, unsafe: bool = False) -> Mended:

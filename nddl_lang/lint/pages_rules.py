@@ -72,8 +72,8 @@ RULE_LINT_PAGES = (
         "and those that fire before it for the same token, or in the script.",
         "Each is a bound on the distance of two times, or of a time and an int variable; the ones that are listed form "
         "a cycle whose bounds sum to less than 0. A token of the predicate can never be part of a plan in which "
-        "the branch holds. A script that resets, cancels or frees something is not judged, nor are its rejectable "
-        "tokens.",
+        "the branch holds. A global constant counts with its value. A script that resets, cancels or frees something "
+        "is not judged, nor are its rejectable tokens.",
         _GAUGE + "Gauge::shown { meets(dark d); met_by(dark e); d before e; level >= 1; }\n",
         _GAUGE + "Gauge::shown { meets(dark d); met_by(dark e); e before d; level >= 1; }\n",
     ),

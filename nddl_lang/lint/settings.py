@@ -58,6 +58,10 @@ class Settings:
             if severity is not None:
                 yield finding if severity is finding.severity else replace(finding, severity=severity)
 
+    def for_mending(self) -> "Settings":
+        """These, where what weighs less than an error for the project is mended too: all but what it ignores."""
+        return replace(self, severities=tuple(each for each in self.severities if each[1] is None))
+
     def _severity(self, code: str, usual: Severity) -> Severity | None:
         """The severity that the longest fitting entry gives."""
         best, found = 0, usual

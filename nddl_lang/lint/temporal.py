@@ -190,9 +190,9 @@ class RuleTimes:
     def _distance(self, first: Expr | None, distance: Expr, second: Expr, span: Span) -> Iterator[Edge]:
         """`first` and `second` are so far apart; without `first`, `second` is at that time."""
         one, other = (self._term(first) if first is not None else (_ZERO, 0.0)), self._term(second)
-        bounds: tuple[float | None, float | None] = (number(distance),) * 2
+        bounds: tuple[float | None, float | None] = (self._number(distance),) * 2
         if isinstance(distance, IntervalExpr):
-            bounds = number(distance.lower), number(distance.upper)
+            bounds = self._number(distance.lower), self._number(distance.upper)
         if one is None or other is None or bounds[0] is None or bounds[1] is None or one[0] == other[0]:
             return
         shift = one[1] - other[1]
@@ -208,17 +208,31 @@ class RuleTimes:
 
     def _hull(self, expression: Expr) -> Interval | None:
         """Between which numbers an expression lies, None where nothing is known."""
+        if (value := self._number(expression)) is not None:
+            return Interval(value, value)
         if isinstance(expression, PathExpr) and isinstance(self._part.reference(expression), GlobalReference):
             return None  # what a script makes of a variable is more than what declares it
         domain = domain_of(self._part, expression)
         return domains.hull(domain) if domain is not None else None
 
+    def _number(self, expression: Expr) -> float | int | None:
+        """The number that an expression stands for: of literals and of global constants."""
+        return number(expression, self._constant)
+
+    def _constant(self, path: PathExpr) -> float | int | None:
+        reference = self._part.reference(path)
+        if not isinstance(reference, GlobalReference) or reference.variable.type.kind not in _NUMBERS:
+            return None
+        domain = declared(reference.variable)
+        hull = domains.hull(domain) if domain is not None and domains.is_single(domain) else None
+        return hull.lower if hull is not None else None
+
     def _term(self, expression: Expr) -> tuple[Node, float] | None:
         """An expression as a time and a distance from it."""
-        if (value := number(expression)) is not None:
+        if (value := self._number(expression)) is not None:
             return (_ZERO, value) if abs(value) < INFINITY else None
         if isinstance(expression, BinaryExpr) and expression.op in ("+", "-"):
-            offset = number(expression.right)
+            offset = self._number(expression.right)
             inner = (
                 self._term(expression.left) if offset is not None and isinstance(expression.left, PathExpr) else None
             )

@@ -1,29 +1,40 @@
 """Read the numbers that an expression writes out."""
 
+from collections.abc import Callable
+
 from nddl_lang.semantics.schema import INFINITY
-from nddl_lang.syntax.nodes import BinaryExpr, Expr, FloatLiteral, IntLiteral, UnaryExpr
+from nddl_lang.syntax.nodes import BinaryExpr, Expr, FloatLiteral, IntLiteral, PathExpr, UnaryExpr
+
+ValueOf = Callable[[PathExpr], float | int | None]
 
 
-def number(expression: Expr) -> float | int | None:
-    """The number that is written out: a literal, or arithmetic over such; None for anything else."""
+def number(expression: Expr, value_of: ValueOf | None = None) -> float | int | None:
+    """The number that is written out: a literal, or arithmetic over such; None for anything else.
+
+    `value_of` gives the numbers of names that stand for one; without it no name does.
+    """
     chain: list[BinaryExpr] = []
     while isinstance(expression, BinaryExpr):
         chain.append(expression)
         expression = expression.left
-    result = _signed_number(expression)
+    result = _signed_number(expression, value_of)
     for binary in reversed(chain):
-        operand = number(binary.right) if result is not None else None
+        operand = number(binary.right, value_of) if result is not None else None
         result = _folded(binary.op, result, operand) if result is not None and operand is not None else None
     return result
 
 
-def _signed_number(expression: Expr) -> float | int | None:
+def _signed_number(expression: Expr, value_of: ValueOf | None) -> float | int | None:
     sign = 1
     while isinstance(expression, UnaryExpr) and expression.op == "-":
         expression, sign = expression.operand, -sign
     if isinstance(expression, IntLiteral | FloatLiteral):
         return expression.value * sign
-    inner = number(expression) if isinstance(expression, BinaryExpr) else None
+    inner = None
+    if isinstance(expression, BinaryExpr):
+        inner = number(expression, value_of)
+    elif isinstance(expression, PathExpr) and value_of is not None:
+        inner = value_of(expression)
     return None if inner is None else inner * sign
 
 

@@ -282,3 +282,36 @@ def test_mission_files_of_a_folder_are_looked_at_with_its_models(
         shown = capsys.readouterr().out
         assert shown.startswith("error[NDDL702]: no key `lookahed` in [[reactor]]\n")
         assert shown.endswith("\n1 error in 3 files\n")
+
+
+def test_mission_files_and_their_solvers_are_mended(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+) -> None:
+    survey = Path("models/templates/survey").resolve()
+    for name in ("planner.nddl", "simulator.nddl", "vehicle.nddl"):
+        (tmp_path / name).write_text((survey / name).read_text())
+    solver = (
+        '[[filter]]\ncomponent = "HorizonFilter"\n[[manager]]\n{component} = "OpenConditionManager"\n'
+        '[[manager]]\ncomponent = "ThreatManager"\n[[manager]]\ncomponent = "UnboundVariableManager"\n'
+    )
+    right = (survey / "mission.toml").read_text().replace("lookahead = 900", 'lookahead = 900\nsolver = "plan.toml"')
+    mission, plan = tmp_path / "mission.toml", tmp_path / "plan.toml"
+    # Behind the misspelt key a goal is seen that does not fit its model: that is no new error of the fix.
+    wrong = right.replace('predicate = "Leg"', 'predicate = "Leeg"')
+    assert wrong != right
+    mission.write_text(wrong.replace("lookahead = 900", "lookahed = 900"))
+    plan.write_text(solver.format(component="componnt"))
+    monkeypatch.chdir(tmp_path)
+    assert run(["lint", "--diff"]) == 1
+    assert [line for line in capsys.readouterr().out.splitlines() if line[:2] in ("-l", "+l", "-c", "+c")] == [
+        "-lookahed = 900",
+        "+lookahead = 900",
+        '-componnt = "OpenConditionManager"',
+        '+component = "OpenConditionManager"',
+    ]
+    assert run(["lint", "--fix"]) == 1
+    assert (mission.read_text(), plan.read_text()) == (wrong, solver.format(component="component"))
+    mission.write_bytes(b"# \xff\n" + right.encode())
+    capsys.readouterr()
+    run(["lint", "--fix"])
+    assert "`mission.toml` is not UTF-8 text and is left as it is" in capsys.readouterr().err

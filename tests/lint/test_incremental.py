@@ -11,6 +11,7 @@ from tests.semantics.test_incremental import loaded
 MODEL = """\
 enum Color { red, green, blue }
 int LEAST = 3;
+int MOST = 5;
 float RATE = [0.1 4.0];
 class Lamp extends Timeline {
   int watts;
@@ -28,7 +29,7 @@ Lamp::lit {
   if (level == 12) { d before e; }
   if (twice == LEAST) { color == red; } else if (color == green) { duration == 0; }
 }
-Spot::lit { contains(dark d); d.duration >= 7; duration <= 5; }
+Spot::lit { contains(dark d); d.duration >= 7; duration <= MOST; }
 Lamp lamp = new Lamp();
 close();
 goal(lamp.lit g);
@@ -37,6 +38,7 @@ g.level = 3; // nddlc: ignore NDDL554
 CHANGES = [
     ("level = [0 10]", "level = [0 20]"),
     ("LEAST = 3", "LEAST = 4"),
+    ("MOST = 5", "MOST = 9"),
     ("d before e", "e before d"),
     ("[0.1 4.0]", "2.0"),
     ("goal(lamp.lit g)", "goal(lamp.dark g)"),
@@ -44,7 +46,7 @@ CHANGES = [
     ("bool warm; ", ""),
     ("green, blue", "green"),
     ("class Spot extends Lamp { }", "class Spot extends Lamp { int kind; }"),
-    ("duration <= 5", "duration <= 8"),
+    ("duration <= MOST", "duration <= LEAST + MOST"),
     ("close();\n", ""),
     ("close();", "close(); // nddlc: ignore-file NDDL5"),
 ]

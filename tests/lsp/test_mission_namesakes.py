@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from checker.models import examine
+from nddl_lang.text.read import read_source
 from tests.lsp.test_missions import place_of
 from tests.lsp.test_quick_fixes import mended
 
@@ -77,7 +78,7 @@ def test_a_mission_of_many_models_is_as_sound_after_any_rename(client: Any, tmp_
     folder = tmp_path / name
     shutil.copytree(UNSEEN / name, folder)
     mission = folder / "mission.toml"
-    sound = Counter(each.code.id for each in examine(mission))
+    sound = Counter(each.code.id for each in examine(read_source(mission), folder))
     texts = {path.as_uri(): path.read_text() for path in sorted(folder.iterdir())}
     client.start(folder=folder)
     tried = 0
@@ -92,7 +93,7 @@ def test_a_mission_of_many_models_is_as_sound_after_any_rename(client: Any, tmp_
             assert "changes" in edit, (found[0], edit)
             for each, edits in edit["changes"].items():
                 Path(each.removeprefix("file://")).write_text(mended(texts[each], edits))
-            assert Counter(each.code.id for each in examine(mission)) == sound, found[0]
+            assert Counter(each.code.id for each in examine(read_source(mission), folder)) == sound, found[0]
             for each in edit["changes"]:
                 Path(each.removeprefix("file://")).write_text(texts[each])
             tried += 1

@@ -241,6 +241,40 @@ IN_A_MISSION = [
     ("laden = true", "ladden = true"),
 ]
 
+SOLVER = """\
+name = "survey"
+[[filter]]
+component = "HorizonFilter"
+policy = "PossiblyContained"
+[[manager]]
+component = "ThreatManager"
+[[manager]]
+component = "OpenConditionManager"
+default_priority = 3
+[[manager.handler]]
+component = "HSTSOpenConditionDecisionPoint"
+choice = "mergeFirst"
+order = ["early", "late"]
+predicate = "Run"
+guards = { n = 3 }
+"""
+IN_A_SOLVER = [
+    ('name = "survey"', 'nmae = "survey"'),
+    ("HorizonFilter", "HorizonFiltr"),
+    ("PossiblyContained", "PossiblyContaind"),
+    ("policy", "polcy"),
+    ("ThreatManager", "ThreatManger"),
+    ('component = "ThreatManager"', 'componnt = "ThreatManager"'),
+    ("default_priority", "default_prority"),
+    ("[[manager.handler]]", "[[manager.handlr]]"),
+    ("HSTSOpenConditionDecisionPoint", "HSTSOpenConditionDecisonPoint"),
+    ("choice", "chioce"),
+    ("mergeFirst", "mergFirst"),
+    ('"late"', '"latte"'),
+    ("predicate", "predicat"),
+    ("guards", "gaurds"),
+]
+
 
 def test_misspelt_words_of_a_mission_file_are_mended_by_quick_fixes_only(client: Any, tmp_path: Path) -> None:
     shutil.copytree(ROOT / "tests" / "checker" / "unseen" / "canal", tmp_path / "canal")
@@ -256,6 +290,39 @@ def test_misspelt_words_of_a_mission_file_are_mended_by_quick_fixes_only(client:
             "textDocument/codeAction", textDocument={"uri": uri}, range=error["range"], context={"diagnostics": [error]}
         )
         assert [mended(text, each["edit"]["changes"][uri]) for each in actions] == [right], mistake
+
+
+def test_misspelt_words_of_a_solver_are_mended_by_quick_fixes_only(client: Any, tmp_path: Path) -> None:
+    path = tmp_path / "solver.toml"
+    uri = path.as_uri()
+    client.start(folder=path.parent)
+    client.open(uri, SOLVER)
+    for mistake in IN_A_SOLVER:
+        text = broken(SOLVER, mistake)
+        (told, *_) = client.change(uri, {"text": text})["diagnostics"]
+        actions = client.ask(
+            "textDocument/codeAction", textDocument={"uri": uri}, range=told["range"], context={"diagnostics": [told]}
+        )
+        of_one = [each for each in actions if each["kind"] == "quickfix"]
+        assert [mended(text, each["edit"]["changes"][uri]) for each in of_one] == [SOLVER], mistake
+
+
+def test_all_misspelt_keys_of_a_mission_file_are_mended_at_once(client: Any, tmp_path: Path) -> None:
+    shutil.copytree(ROOT / "tests" / "checker" / "unseen" / "canal", tmp_path / "canal")
+    path = tmp_path / "canal" / "mission.toml"
+    right = path.read_text()
+    text = broken(right, *(("final_tick", "final_tik"), ("\nexternal = ", "\nexternl = ")))
+    uri = path.as_uri()
+    client.start(folder=path.parent)
+    client.open(uri, text)
+    (action,) = client.ask(
+        "textDocument/codeAction",
+        textDocument={"uri": uri},
+        range={"start": {"line": 0, "character": 0}, "end": {"line": 0, "character": 0}},
+        context={"diagnostics": [], "only": ["source.fixAll"]},
+    )
+    edit = action.get("edit") or client.ask("codeAction/resolve", **action)["edit"]
+    assert mended(text, edit["changes"][uri]) == right
 
 
 @pytest.mark.parametrize("name", UNSEEN)

@@ -1,11 +1,11 @@
 """Read a solver's configuration: XML or TOML in, a configuration and diagnostics out."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
-from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.diagnostic import Code, Diagnostic, Severity
 from nddl_lang.text.nearest import nearest
-from nddl_lang.text.source import Source
+from nddl_lang.text.source import Source, Span
 from runtime.solver.configuration.codes import (
     BOTH_LEVELS,
     EMPTY_VALUES,
@@ -21,7 +21,7 @@ from runtime.solver.configuration.codes import (
     WRONG_ROOT,
 )
 from runtime.solver.configuration.configuration import Configuration, FlawFilter, FlawHandler, FlawManager, Match
-from runtime.solver.configuration.element import Attribute, Element
+from runtime.solver.configuration.element import Attribute, Element, respelt
 from runtime.solver.configuration.read_toml import read_toml
 from runtime.solver.configuration.read_xml import read_xml
 from runtime.solver.configuration.words import (
@@ -51,6 +51,7 @@ _MATCHES = {  # the ways to write an attribute, the one that counts first
     "token_name": ("tokenName",),
 }
 _MATCH_NAMES = {name for names in _MATCHES.values() for name in names} | {"label", "component"}
+_TABLES = ("guards", "master_guards", "values")  # of a handler in TOML, which are elements in XML
 _HANDLER_ATTRIBUTES = {
     "HSTSOpenConditionDecisionPoint": {"choice", "order"},
     "HSTSThreatDecisionPoint": {"order"},
@@ -114,14 +115,14 @@ class _Reading:
         known = {"component", "label", "defaultPriority"} | ({"order"} if kind == RESOURCE_THREAT else set())
         if component:
             if kind == NONE:
-                place, help_ = (named or element).span, _help(component, MANAGER_NAMES)
-                self.complaints.append(UNKNOWN_MANAGER.at(place, name=component, help=help_))
-            self.spare(element, known)
+                self.unknown(UNKNOWN_MANAGER, (named or element).span, component, MANAGER_NAMES)
+            self.spare(element, known, ("filter", "handler"))
         else:
             names = {attribute.name: attribute.span for attribute in element.attributes}
             misspelt = nearest("component", names)
             place, help_ = names.get(misspelt or "", element.span), _help(misspelt or "", ("component", *MANAGER_NAMES))
-            self.complaints.append(MISSING_ATTRIBUTE.at(place, element="manager", name="component", help=help_))
+            complaint = MISSING_ATTRIBUTE.at(place, element="manager", name="component", help=help_)
+            self.complaints.append(respelt(complaint, misspelt or "", "component", is_key=True))
         default = self.number(element, "defaultPriority", WORST_PRIORITY)
         filters: list[FlawFilter] = []
         handlers: list[FlawHandler] = []
@@ -144,7 +145,7 @@ class _Reading:
         component = element.find("component")
         name = component.value if component else "FlawFilter"
         if name not in FILTERS and name not in WINDOW_FILTERS:
-            self.complaints.append(UNKNOWN_FILTER.at((component or element).span, name=name, help=_help(name, FILTERS)))
+            self.unknown(UNKNOWN_FILTER, (component or element).span, name, FILTERS)
         is_horizon = name in ("HorizonFilter", "HorizonVariableFilter")
         self.spare(element, _MATCH_NAMES | ({"policy"} if is_horizon else set()))
         for child in element.children:
@@ -158,8 +159,7 @@ class _Reading:
         named = element.find("component")
         name = named.value if named else STANDARD.get(kind, "")
         if name not in HANDLERS:
-            help_ = _help(name, _handlers_of(kind) or HANDLERS)
-            self.complaints.append(UNKNOWN_HANDLER.at((named or element).span, name=name, help=help_))
+            self.unknown(UNKNOWN_HANDLER, (named or element).span, name, _handlers_of(kind) or HANDLERS)
             return
         if HANDLERS[name][0] != kind:
             if kind != NONE:
@@ -167,7 +167,7 @@ class _Reading:
                 help_ = _help("", _handlers_of(kind))
                 self.complaints.append(MISPLACED_HANDLER.at(span, name=name, manager=MANAGER_NAMES[kind], help=help_))
             return
-        self.spare(element, _MATCH_NAMES | {"priority", "maxChoices"} | _HANDLER_ATTRIBUTES.get(name, set()))
+        self.spare(element, _MATCH_NAMES | {"priority", "maxChoices"} | _HANDLER_ATTRIBUTES.get(name, set()), _TABLES)
         guards, parent_guards, values = [], [], []
         for child in element.children:
             if child.tag == "Guard":
@@ -234,17 +234,25 @@ class _Reading:
         for word in found:
             if word not in allowed:
                 choices = ", ".join(f"`{choice}`" for choice in allowed)
-                complaint = UNKNOWN_CHOICE.at(attribute.span, value=word, name=name, allowed=choices)
-                self.complaints.append(complaint)
+                meant = _meant(word, allowed)
+                help_ = _question(meant) if meant is not None else None
+                complaint = UNKNOWN_CHOICE.at(attribute.span, value=word, name=name, allowed=choices, help=help_)
+                self.complaints.append(respelt(complaint, word, meant))
         return tuple(word for word in found if word in allowed)
 
-    def spare(self, element: Element, known: set[str]) -> None:
-        """Complain of attributes that nobody reads: they are mostly misspelt."""
+    def spare(self, element: Element, known: set[str], tables: tuple[str, ...] = ()) -> None:
+        """Complain of attributes that nobody reads: they are mostly misspelt, in TOML also for one of `tables`."""
         for attribute in element.attributes:
             if attribute.name not in known:
                 shown = [self.shown(name) for name in sorted(known) if not (self.is_toml and "-" in name)]
-                name = self.shown(attribute.name)
-                self.complaints.append(UNKNOWN_ATTRIBUTE.at(attribute.span, name=name, help=_help(name, shown)))
+                shown += tables if self.is_toml else ()
+                self.unknown(UNKNOWN_ATTRIBUTE, attribute.span, self.shown(attribute.name), shown, is_key=True)
+
+    def unknown(self, code: Code, span: Span, name: str, known: Iterable[str], *, is_key: bool = False) -> None:
+        """Complain of a name that none of the known ones is, with the fix that writes the one that was meant."""
+        words = list(known)
+        complaint = code.at(span, name=name, help=_help(name, words))
+        self.complaints.append(respelt(complaint, name, _meant(name, words), is_key=is_key))
 
     def shown(self, name: str) -> str:
         """An attribute as the file writes it: `maxChoices` of XML is `max_choices` in TOML."""
@@ -259,12 +267,21 @@ def _handlers_of(kind: int) -> list[str]:
 def _help(name: str, known: Iterable[str]) -> str:
     """Which of the known words was meant, else all of them."""
     words = list(known)
+    meant = _meant(name, words)
+    return _question(meant) if meant is not None else "there are: " + ", ".join(f"`{word}`" for word in words)
+
+
+def _question(meant: str) -> str:
+    return f"did you mean `{meant}`?"
+
+
+def _meant(name: str, words: Sequence[str]) -> str | None:
+    """The word that was meant by `name`, None where that is not plain."""
     within = [word for word in words if name and name.casefold() in word.casefold()]
-    meant = nearest(name, words) or (within[0] if len(within) == 1 else None) or _of_same_parts(name, words)
-    return f"did you mean `{meant}`?" if meant else "there are: " + ", ".join(f"`{word}`" for word in words)
+    return nearest(name, words) or (within[0] if len(within) == 1 else None) or _of_same_parts(name, words)
 
 
-def _of_same_parts(name: str, words: list[str]) -> str | None:
+def _of_same_parts(name: str, words: Sequence[str]) -> str | None:
     """The word that has all parts of `name`: `ResourceManager` is short for `ResourceThreatManager`."""
     parts = re.findall("[A-Z][a-z]+", name)
     found = [word for word in words if parts and all(part in word for part in parts)]

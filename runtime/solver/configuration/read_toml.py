@@ -5,15 +5,17 @@ import tomllib
 from collections.abc import Iterator
 
 from nddl_lang.text.diagnostic import Diagnostic
+from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Source, Span
 from nddl_lang.text.toml_places import Path, find_places
 from nddl_lang.text.toml_slips import not_toml
 from nddl_lang.text.values import toml_value
 from runtime.solver.configuration.codes import NOT_READABLE, UNKNOWN_ELEMENT
-from runtime.solver.configuration.element import Attribute, Element, stretch
+from runtime.solver.configuration.element import Attribute, Element, respelt, stretch
 from runtime.solver.configuration.read_xml import is_solver_xml
 
 _Table = dict[str, object]
+_KEYS = ("name", "filter", "manager")
 _TABLE = re.compile(r"^[ \t]*\[\[?[ \t]*(?:manager|filter)\b", re.MULTILINE)
 
 
@@ -106,7 +108,10 @@ class _Converter:
 
     def complain(self, path: Path) -> None:
         name = ".".join(part for part in path if isinstance(part, str))
-        self.complaints.append(UNKNOWN_ELEMENT.at(self.span(path), name=name))
+        meant = nearest(name, _KEYS) if len(path) == 1 else None
+        advice = f"did you mean `{meant}`?" if meant is not None else None
+        complaint = UNKNOWN_ELEMENT.at(self.span(path), name=name, help=advice)
+        self.complaints.append(respelt(complaint, name, meant, is_key=True))
 
 
 def _text(value: object) -> str:
