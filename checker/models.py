@@ -1,6 +1,8 @@
 """The models of a mission, read and checked: programs, what they sample, and all that is wrong with them."""
 
+import errno
 import hashlib
+import os
 from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import chain
@@ -24,7 +26,7 @@ from nddl_lang.lint.linter import lint
 from nddl_lang.semantics.callables import Callables
 from nddl_lang.syntax.includes import OpenText
 from nddl_lang.text.diagnostic import Diagnostic, Severity
-from nddl_lang.text.read import NotAFileError, read_source, read_text
+from nddl_lang.text.read import NotAFileError, read_text
 from nddl_lang.text.source import Source
 from runtime.executive.configuration import AgentConfiguration
 from runtime.solver.configuration.read import read_configuration
@@ -102,7 +104,7 @@ def load_models(mission: Mission, open_text: OpenText = read_text, *, is_linted:
     texts |= {each.file: (root / each.file).read_text(encoding="utf-8") for each in agent.coded if each.file}
     texts |= dict(_named_files(agent, root))
     solvers = dict.fromkeys(each.solver for each in agent.reactors if each.solver is not None)
-    configured = [read_source(root / name) for name in solvers]
+    configured = [_opened(root / name, open_text) for name in solvers]
     texts |= {name: source.text for name, source in zip(solvers, configured, strict=True)}
     told = [analysis.diagnostics for analysis in analyses.values()]
     readings = [read_configuration(source) for source in configured]
@@ -127,6 +129,14 @@ def load_models(mission: Mission, open_text: OpenText = read_text, *, is_linted:
     return ModelSet(
         completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits), findings
     )
+
+
+def _opened(path: Path, open_text: OpenText) -> Source:
+    """The source at `path`; raises OSError."""
+    text = open_text(path)
+    if text is None:
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path))
+    return Source(str(path), text)
 
 
 _Place = tuple[str, int, str, str]

@@ -34,17 +34,23 @@ def _known(field: str, match: dict[str, Attribute], programs: Sequence[Program])
         case "class_name" | "parent_class":
             return {code.name for program in programs for code in program.classes}
         case "predicate" | "parent_predicate":
-            names = {code.name for program in programs for code in program.predicates}
-            return names | {name.rpartition(".")[2] for name in names}
+            return _predicates(programs)
         case "variable":
-            return _variables(match.get("predicate"), programs)
+            predicate = match.get("predicate")
+            wanted = predicate.value if predicate is not None else ""
+            return _variables(wanted if wanted in _predicates(programs) else "", programs)
         case _:
             return set()
 
 
-def _variables(predicate: Attribute | None, programs: Sequence[Program]) -> set[str]:
-    """The variables that a token of that predicate may have, or any variable of a model."""
-    wanted = predicate.value if predicate is not None else ""
+def _predicates(programs: Sequence[Program]) -> set[str]:
+    """The names of predicates, with and without their class."""
+    names = {code.name for program in programs for code in program.predicates}
+    return names | {name.rpartition(".")[2] for name in names}
+
+
+def _variables(wanted: str, programs: Sequence[Program]) -> set[str]:
+    """The variables that a token of the wanted predicate may have; without one, any variable of a model."""
     names = set(_OF_TOKENS)
     for program in programs:
         names |= {

@@ -72,7 +72,7 @@ def examine_for_editor(source: Source, root: Path, is_trusted: bool) -> tuple[Di
 def _complaints(source: Source, root: Path, is_trusted: bool) -> Iterator[Diagnostic]:
     is_named_so = source.name.endswith(".toml") and "solver" in Path(source.name).name.lower()
     if is_named_so or is_solver_text(source.name, source.text):
-        yield from named("runtime.solver.configuration.read:read_configuration")(source)[1]
+        yield from named("checker.solver_file:examine_solver")(source, root)
         return
     mission, found = named("checker.mission:parse_mission")(source, root)
     yield from found

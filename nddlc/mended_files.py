@@ -29,7 +29,7 @@ def mission_findings(source: Source, root: Path) -> tuple[Diagnostic, ...]:
     """All that is wrong with a solver's configuration, or with a mission file in the folder `root` and its models."""
     found: tuple[Diagnostic, ...]
     if _is_solver(source):
-        found = named("runtime.solver.configuration.read:read_configuration")(source)[1]
+        found = named("checker.solver_file:examine_solver")(source, root)
     else:
         found = named("checker.models:examine")(source, root)
     return found
