@@ -180,6 +180,8 @@ class Agent:
             busy.remove(reactor)
             failure = reactor.failure()
             abort = self._give_up(reactor, failure) if failure is not None else self._dispatch(reactor, busy)
+            if reactor.has_turns():
+                busy.append(reactor)
         return abort
 
     def _step(self, reactor: TeleoReactor) -> bool:

@@ -19,7 +19,7 @@ cdef class CodedReactor(TeleoReactor):
     cdef public dict told_sets
     cdef public object folder, make, kinds, trace, code, wakes, wake, commands
     cdef public dict seen, events, news, numbers, told
-    cdef public list refused_numbers, published, asked, recalled, given_up
+    cdef public list refused_numbers, published, turns, given_up
 
     cpdef long long next_tick(self, long long tick) except? -1
 
@@ -36,6 +36,10 @@ cdef class CodedReactor(TeleoReactor):
     cpdef list observations(self, long long tick)
 
     cpdef list requests(self, long long tick)
+
+    cpdef double urgency(self, long long tick) except? -1.0
+
+    cpdef bint has_turns(self) except -1
 
     cpdef list recalls(self)
 

@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Callable, Iterable, Mapping
-from math import isnan
+from math import inf, isnan
 from pathlib import Path
 
 from compiler.program import DomainConstant
@@ -12,10 +12,11 @@ from runtime.executive.messages import Arguments, Observation, Request, make_dom
 from runtime.executive.outcome import EventKind, OpenGoal, Reason, ReasonKind, SourcePlace, TimeBounds
 from runtime.executive.reactor import Failure, Refusal, TeleoReactor
 from runtime.executive.trace import Trace
+from runtime.executive.turns import Said, is_due, turns_of
 from runtime.plan.tags import INFINITY
 from runtime.user.fault import UserCodeError, failed
 from runtime.user.limit import WATCH, Plain
-from runtime.user.reactor import Argument, Asked, Now, Published, Reactor, Seen, Ticks
+from runtime.user.reactor import Argument, Now, Published, Reactor, Seen, Ticks
 
 _NEVER = 2**62
 _MOST_CAUSES = 3
@@ -65,8 +66,7 @@ class CodedReactor(TeleoReactor):
         self.wakes = {0}  # the ticks at which the code wants to be called
         self.wake = 0  # the earliest of them
         self.published: list[tuple[Published, Arguments, tuple[int, ...]]] = []  # with the request that it answers
-        self.asked: list[Asked] = []
-        self.recalled: list[int] = []
+        self.turns: list[Said] = []  # what it asks and takes back, each at once
         self.numbers: dict[int, int] = {}  # of what was asked for, as the code and as the agent counts
         self.count = 0
         self.given_up: list[Refusal] = []
@@ -192,10 +192,7 @@ class CodedReactor(TeleoReactor):
         if now.wakes:
             self._wake_after(now.tick, [min(tick, _NEVER) for tick in now.wakes])
         self.published = [(*each, self._begun(now.tick, *each)) for each in said.values()]
-        self.recalled = now.recalled
-        self.asked = now.asked
-        if now.recalled:
-            self.asked = [asked for asked in now.asked if asked.number not in now.recalled]
+        self.turns = turns_of(now)
         self.count += len(now.asked)
 
     def _begun(self, tick: int, one: Published, arguments: Arguments) -> tuple[int, ...]:
@@ -226,9 +223,9 @@ class CodedReactor(TeleoReactor):
     def requests(self, tick: int) -> list[Request]:
         """What the code has asked for in this tick."""
         found: list[Request] = []
-        if not self.asked:
+        if not self.turns:
             return found
-        for one in self.asked:
+        for one in self.turns.pop(0).asked:
             arguments = self._arguments(one.timeline, one.predicate, one.arguments)
             bounds = TimeBounds(_bounds(one.start), _bounds(one.end), _bounds(one.duration))
             number = len(self.trace.events)
@@ -249,8 +246,17 @@ class CodedReactor(TeleoReactor):
                     event,
                 )
             )
-        self.asked = []
         return found
+
+    def urgency(self, tick: int) -> float:
+        """It decides nothing, and so comes last; whose place in the tick is on record comes there."""
+        if not self.turns or self.turns[0].others < 0:
+            return 0.0
+        return inf if is_due(self.turns[0], self.trace, self.name) else -1.0
+
+    def has_turns(self) -> bool:
+        """Whether it has more to ask or take back in this tick."""
+        return bool(self.turns)
 
     def open_requests(self) -> list[int]:
         """Numbers of the requests that were made and not taken back."""
@@ -259,9 +265,9 @@ class CodedReactor(TeleoReactor):
     def recalls(self) -> list[int]:
         """Numbers of the requests that the code takes back."""
         found: list[int] = []
-        if not self.recalled:
+        if not self.turns:
             return found
-        for own in self.recalled:
+        for own in self.turns[0].recalled:
             number = self.numbers.pop(own, None)
             if number is not None:
                 request = self.trace.events[number]
@@ -269,7 +275,6 @@ class CodedReactor(TeleoReactor):
                     EventKind.RECALL, self.name, request.timeline, request.predicate, request.arguments, request=number
                 )
                 found.append(number)
-        self.recalled = []
         return found
 
     def refusals(self) -> list[Refusal]:

@@ -36,6 +36,8 @@ cdef class TeleoReactor:
 
     cpdef list requests(self, long long tick)
 
+    cpdef bint has_turns(self) except -1
+
     cpdef list recalls(self)
 
     cpdef list refusals(self)

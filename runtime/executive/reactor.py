@@ -139,6 +139,10 @@ class TeleoReactor:
         """What is to be asked of owners now."""
         return []
 
+    def has_turns(self) -> bool:
+        """Whether it has more to ask or take back in this tick, and waits for others."""
+        return False
+
     def recalls(self) -> list[int]:
         """Numbers of the requests that are taken back."""
         return []

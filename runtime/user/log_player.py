@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from nddl_lang.text.values import json_value
+from runtime.executive.turns import is_done_by_others
 from runtime.user.reactor import Argument, Now, Reactor, Ticks, Value
 from runtime.user.transaction_log import SUFFIX, read_transaction_log
 
@@ -12,33 +13,39 @@ from runtime.user.transaction_log import SUFFIX, read_transaction_log
 class LogPlayer(Reactor):
     """Stands in for the reactor `reactor` (a setting) of the trace at `trace`: same values, goals and recalls.
 
+    What it asks and takes back has its place among what others do in the tick (a `.tr.log` tells nothing of these).
     Of a `.tr.log`, which is of one reactor, `reactor` may be left out. With `timelines`, names apart by commas, it
     publishes only on these. Where the trace ends before the mission, what it said last goes on.
     """
 
     def __init__(self, settings: Mapping[str, Value]) -> None:
         super().__init__(settings)
-        self.events: dict[int, list[dict[str, Any]]] = {}
+        self.events: dict[int, list[tuple[int, dict[str, Any]]]] = {}
         self.numbers: dict[int, int] = {}
         trace = Path(str(settings["folder"])) / str(settings["trace"])
         if trace.name.endswith(SUFFIX):
-            found: list[dict[str, Any]] = list(read_transaction_log(trace).events)
+            found = [(-1, event) for event in read_transaction_log(trace).events]
         else:
-            found = [json_value(line) for line in trace.read_text(encoding="utf-8").splitlines()]
-            found = [event for event in found if event.get("reactor") == settings["reactor"]]
+            lines = trace.read_text(encoding="utf-8").splitlines()
+            found = _placed([json_value(line) for line in lines], str(settings["reactor"]))
         own = str(settings["timelines"]).split(",") if "timelines" in settings else None
-        for event in found:
+        for others, event in found:
             is_told = own is None or event.get("timeline") in own
             if event["kind"] in ("request", "recall") or (event["kind"] == "observation" and is_told):
-                self.events.setdefault(event["tick"], []).append(event)
+                self.events.setdefault(event["tick"], []).append((others, event))
 
     def tick(self, now: Now) -> None:
         """Do what is on record for this tick, and sleep until the next one with a record."""
-        for event in self.events.pop(now.tick, ()):
+        behind = -1
+        for others, event in self.events.pop(now.tick, ()):
             arguments = {name: _argument(value) for name, value in event["arguments"].items()}
             if event["kind"] == "observation":
                 now.publish(event["timeline"], event["predicate"], **arguments)
-            elif event["kind"] == "request":
+                continue
+            if others > behind:
+                behind = others
+                now.await_others(others)
+            if event["kind"] == "request":
                 start, end, duration = (_ticks(event[name]) for name in ("start", "end", "duration"))
                 self.numbers[event["request"]] = now.ask(
                     event["timeline"], event["predicate"], start=start, end=end, duration=duration, **arguments
@@ -47,6 +54,20 @@ class LogPlayer(Reactor):
                 now.recall(self.numbers[event["request"]])
         if self.events:
             now.wake(min(self.events))
+
+
+def _placed(events: list[dict[str, Any]], name: str) -> list[tuple[int, dict[str, Any]]]:
+    """The events of one reactor, each with how much others have done by then in the deliberation of its tick."""
+    found = []
+    tick, others = -1, 0
+    for event in events:
+        if event.get("tick") != tick:
+            tick, others = event.get("tick", -1), 0
+        if event.get("reactor") == name:
+            found.append((others, event))
+        elif is_done_by_others(name, event.get("reactor", ""), event["kind"], event.get("phase", "")):
+            others += 1
+    return found
 
 
 def _argument(value: Any) -> Argument:

@@ -3,4 +3,4 @@
 
 cdef class Now:
     cdef public object tick, seen, news, refused, first_number, published, asked, recalled, wakes
-    cdef public object commands, taken_back, declined
+    cdef public object commands, taken_back, declined, turns

@@ -56,6 +56,14 @@ class Command(NamedTuple):
     end: tuple[int, int]
 
 
+class Turn(NamedTuple):
+    """How much others do in the deliberation of a tick before what is asked and recalled from these places on."""
+
+    others: int
+    asked: int
+    recalled: int
+
+
 class Now:
     """One tick, as a reactor sees it and speaks in it.
 
@@ -86,6 +94,7 @@ class Now:
         self.recalled: list[int] = []
         self.wakes: list[int] = []
         self.declined: list[tuple[int, str]] = []
+        self.turns: list[Turn] = []
 
     def publish(self, timeline: str, predicate: str, /, **arguments: Argument) -> None:
         """Have an own timeline hold a value from this tick on; a command for just that has begun with it."""
@@ -113,6 +122,10 @@ class Now:
     def decline(self, number: int, why: str = "") -> None:
         """Do not do what a command asks for; its sender is told why."""
         self.declined.append((number, why))
+
+    def await_others(self, count: int) -> None:
+        """Have what is asked and recalled from here on come behind so much that others do in this tick: a replay."""
+        self.turns.append(Turn(count, len(self.asked), len(self.recalled)))
 
     def wake(self, tick: int) -> None:
         """Have `tick` called at a later tick even if nothing is new then, whatever it is called for before."""
