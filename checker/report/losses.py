@@ -86,7 +86,7 @@ def _sorts(reasons: Sequence[tuple[Reason, int]]) -> list[tuple[Reason, int, boo
 def _sort_of(reason: Reason) -> Reason:
     token = None if reason.token is None else replace(reason.token, key=0)
     repair = None if reason.repair is None else _sort_of(reason.repair)
-    return replace(reason, token=token, tick=None, repair=repair)
+    return replace(reason, token=token, tick=None, since=None, repair=repair)
 
 
 def repair_text(repair: RepairTally, excerpts: Excerpts) -> str:

@@ -24,7 +24,7 @@ def go_on(bench: Workbench, timelines: list[TimelineState], tick: int) -> SyncFa
     for line in timelines:
         span = SPAN_EXECUTIVE if line.is_internal else SPAN_OBSERVATION
         if line.current != NOTHING and not bench.at_least(bench.end(line.current), tick, span, line.current):
-            what = Reason(ReasonKind.CANNOT_GO_ON, bench.name_of(line.current), tick=tick)
+            what = why_not(ReasonKind.CANNOT_GO_ON, bench, line.current, tick)
             return SyncFailure("F3" if line.is_internal else "F1", (line.name,), what, conflict_of(bench))
     return None
 
@@ -36,11 +36,17 @@ def persist(bench: Workbench, timelines: list[TimelineState], tick: int, asked: 
             continue
         if line.news is None:
             if not bench.at_least(bench.end(line.current), tick + 1, SPAN_OBSERVATION, line.current):
-                what = Reason(ReasonKind.GOES_ON, bench.name_of(line.current), tick=tick)
+                what = why_not(ReasonKind.GOES_ON, bench, line.current, tick)
                 following = bench.next_of(line.object_id, line.current)
                 code = "F6" if following >= 0 and asked.is_refused(following) else "F1"
                 return SyncFailure(code, (line.name,), what, conflict_of(bench))
         elif not bench.end_observed(line.current, tick):
-            what = Reason(ReasonKind.ENDED, bench.name_of(line.current), tick=tick)
+            what = why_not(ReasonKind.ENDED, bench, line.current, tick)
             return SyncFailure(code_of_news(line.news), (line.name,), what, conflict_of(bench))
     return None
+
+
+def why_not(kind: ReasonKind, bench: Workbench, token: int, tick: int) -> Reason:
+    """What is wrong with a token that holds at a tick."""
+    start = bench.started_at(token)
+    return Reason(kind, bench.name_of(token), tick=tick, since=int(start) if start >= 0 else None)

@@ -206,6 +206,7 @@ class Reason:
     """Why something happened, with what it is about; `limit` is a number of tries, steps or decisions.
 
     `message` is text of others, such as that of an exception in a user's reactor, which `raised` is the line of.
+    `since` is when what holds has begun: one planned token may be met by several runs, one after each repair.
     `repair` is the reason of the repair in which a goal left the plan.
     """
 
@@ -218,6 +219,7 @@ class Reason:
     message: str = ""
     repair: "Reason | None" = None
     raised: SourcePlace | None = None
+    since: int | None = None
 
 
 class RepairStage(StrEnum):

@@ -37,9 +37,9 @@ _REASONS = {
     ReasonKind.REJECTED: "the planner found no place for it",
     ReasonKind.RECALLED: "taken back",
     ReasonKind.CLOCK: "the plan does not allow it to be tick {tick}",
-    ReasonKind.GOES_ON: "{token} goes on at tick {tick}, later than the plan allows",
-    ReasonKind.ENDED: "{token} ended at tick {tick}, when the plan does not allow it",
-    ReasonKind.CANNOT_GO_ON: "{token} cannot go on at tick {tick}",
+    ReasonKind.GOES_ON: "{token}{since} goes on at tick {tick}, later than the plan allows",
+    ReasonKind.ENDED: "{token}{since} ended at tick {tick}, when the plan does not allow it",
+    ReasonKind.CANNOT_GO_ON: "{token}{since} cannot go on at tick {tick}",
     ReasonKind.CANNOT_START: "{token} cannot start at tick {tick}",
     ReasonKind.NONE_CAN_START: "no {predicate} can start at tick {tick}",
     ReasonKind.DID_NOT_START: "{token} was to start by tick {tick} and did not",
@@ -128,6 +128,7 @@ def reason_text(reason: Reason) -> str:
         predicate=reason.predicate,
         timeline=reason.timeline,
         tick=reason.tick,
+        since="" if reason.since is None else f" of tick {reason.since}",
         limit=reason.limit,
         message=reason.message,
     )
@@ -239,7 +240,7 @@ def _reason_data(reason: Reason) -> dict[str, Any]:
     found: dict[str, Any] = {"kind": reason.kind.value}
     if reason.token is not None:
         found["token"] = str(reason.token)
-    for name in ("predicate", "timeline", "tick", "limit", "message"):
+    for name in ("predicate", "timeline", "tick", "since", "limit", "message"):
         if (value := getattr(reason, name)) not in (None, ""):
             found[name] = value
     if reason.repair is not None:

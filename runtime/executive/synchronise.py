@@ -7,7 +7,7 @@ chronologically. Where that takes long, a timeline on which nothing fits is deci
 from dataclasses import replace
 
 from runtime.executive.dispatch import Dispatch
-from runtime.executive.lasting import go_on, persist
+from runtime.executive.lasting import go_on, persist, why_not
 from runtime.executive.messages import Observation
 from runtime.executive.outcome import ChoiceKind, Deadlock, FailedChoice, PresentChoice, Reason, ReasonKind
 from runtime.executive.planning import EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, Planner
@@ -368,7 +368,7 @@ class _Search:
             return
         code = "F3" if line.is_internal else code_of_news(line.news)
         if kind == _EXTEND:
-            what = Reason(ReasonKind.CANNOT_GO_ON, self.bench.name_of(token), tick=self.tick)
+            what = why_not(ReasonKind.CANNOT_GO_ON, self.bench, token, self.tick)
         elif kind in (_NEXT, _MEET):
             what = Reason(ReasonKind.CANNOT_START, self.bench.name_of(token), tick=self.tick)
         else:

@@ -7,7 +7,15 @@ from pathlib import Path
 from runtime.user.reactor import Command, Now, Seen
 
 PAGE = Path(__file__).resolve().parents[2] / "docs/agent.md"
-INNER = {"published", "asked", "recalled", "wakes", "declined", "turns", "first_number"}  # what the agent reads and sets
+INNER = {
+    "published",
+    "asked",
+    "recalled",
+    "wakes",
+    "declined",
+    "turns",
+    "first_number",
+}  # what the agent reads and sets
 
 
 def test_every_member_of_now_is_told_with_its_arguments() -> None:

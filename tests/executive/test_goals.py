@@ -152,7 +152,7 @@ def test_a_request_is_taken_back_when_its_token_loses_its_place() -> None:
     assert lines(outcome, "reject") == [
         "0 reject sim lamp On(n=[-inf +inf]): the planner found no place for it",
         "4 reject user user Busy: the planner found no place for it"
-        " (Lamp.Off#0 goes on at tick 4, later than the plan allows)",
+        " (Lamp.Off#0 of tick 0 goes on at tick 4, later than the plan allows)",
     ]
     assert history(outcome, "lamp") == ["0 Off"]
 
@@ -307,7 +307,7 @@ GIVEN_UP = "it began, and a repair has cut it loose from what was to end it"
 def test_a_goal_is_kept_whose_plan_can_use_what_ends_later_than_was_asked() -> None:
     told, left = chained("", HAND)
     assert told == [
-        f"9 reject user user Busy(k=1): {GIVEN_UP} (Lamp.On#3 goes on at tick 9, later than the plan allows)",
+        f"9 reject user user Busy(k=1): {GIVEN_UP} (Lamp.On#3 of tick 4 goes on at tick 9, later than the plan allows)",
         "14 achieved boss job Make(k=1)",
     ]
     assert left == []
@@ -321,7 +321,7 @@ def test_a_goal_whose_own_end_is_missed_is_given_up_by_its_own_repair() -> None:
 
 def test_a_rule_whose_end_is_missed_since_work_ends_late_ends_the_mission() -> None:
     told, _ = chained("duration <= 9;", HAND)
-    assert told[1:] == ["13 abort boss user F1: User.Busy#4 goes on at tick 13, later than the plan allows"]
+    assert told[1:] == ["13 abort boss user F1: User.Busy#4 of tick 4 goes on at tick 13, later than the plan allows"]
 
 
 def test_a_goal_is_not_achieved_whose_work_ends_at_its_own_end_without_what_it_needed() -> None:

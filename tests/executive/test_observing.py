@@ -109,15 +109,15 @@ def test_one_tick_past_the_bound_there_are_two_repairs() -> None:
     assert lines(outcome, "relax", "reject", "request") == [
         "0 request user Busy",
         "2 request user lamp On(n=[-inf +inf])",
-        "13 relax user keeping the past: Lamp.On#4 goes on at tick 13, later than the plan allows",
-        "13 relax user forgetting the past: Lamp.On#4 goes on at tick 13, later than the plan allows",
+        "13 relax user keeping the past: Lamp.On#4 of tick 3 goes on at tick 13, later than the plan allows",
+        "13 relax user forgetting the past: Lamp.On#4 of tick 3 goes on at tick 13, later than the plan allows",
         "13 request user lamp On(n=[-inf +inf])",
-        "24 relax user keeping the past: Lamp.On#4 goes on at tick 24, later than the plan allows",
-        "24 relax user forgetting the past: Lamp.On#4 goes on at tick 24, later than the plan allows",
+        "24 relax user keeping the past: Lamp.On#4 of tick 14 goes on at tick 24, later than the plan allows",
+        "24 relax user forgetting the past: Lamp.On#4 of tick 14 goes on at tick 24, later than the plan allows",
     ]
     assert outcome.abort is None and open_goals(outcome) == [
         "Busy: it began, and a repair has cut it loose from what was to end it"
-        " (Lamp.On#4 goes on at tick 24, later than the plan allows)"
+        " (Lamp.On#4 of tick 14 goes on at tick 24, later than the plan allows)"
     ]
 
 
@@ -129,18 +129,18 @@ def test_what_is_only_planned_gives_way_to_the_world_with_the_past_kept() -> Non
     outcome = fly(user(using), burning, until=20, goals=goals)
     assert outcome.abort is None
     assert lines(outcome, "relax", "reject") == [
-        "9 relax user keeping the past: Lamp.On#3 goes on at tick 9, later than the plan allows",
+        "9 relax user keeping the past: Lamp.On#3 of tick 1 goes on at tick 9, later than the plan allows",
         "9 reject user user Busy: the planner found no place for it"
-        " (Lamp.On#3 goes on at tick 9, later than the plan allows)",
+        " (Lamp.On#3 of tick 1 goes on at tick 9, later than the plan allows)",
     ]
 
 
 def test_after_both_repairs_the_agent_gives_up() -> None:
     outcome = fly(user("Lamp::On { duration <= 3; }"), lamp("Lamp::Off { duration == 2; meets(On o); }"), until=20)
     assert lines(outcome, "relax", "abort") == [
-        "5 relax user keeping the past: Lamp.On#2 goes on at tick 5, later than the plan allows",
-        "5 relax user forgetting the past: Lamp.On#2 goes on at tick 5, later than the plan allows",
-        "5 abort user lamp F1: Lamp.On#2 goes on at tick 5, later than the plan allows",
+        "5 relax user keeping the past: Lamp.On#2 of tick 2 goes on at tick 5, later than the plan allows",
+        "5 relax user forgetting the past: Lamp.On#2 of tick 2 goes on at tick 5, later than the plan allows",
+        "5 abort user lamp F1: Lamp.On#2 of tick 2 goes on at tick 5, later than the plan allows",
     ]
     assert outcome.last_tick == 5 and outcome.ended_early
 
@@ -149,7 +149,7 @@ def test_an_observation_that_the_model_forbids_is_unexpected() -> None:
     outcome = fly(user("Lamp::Off { duration >= 9; }"), blinking(4), until=20)
     assert outcome.abort is not None
     assert (outcome.abort.code, outcome.abort.tick, outcome.abort.relaxes) == ("F2", 4, 2)
-    assert reason_text(outcome.abort.reason) == "Lamp.Off#0 ended at tick 4, when the plan does not allow it"
+    assert reason_text(outcome.abort.reason) == "Lamp.Off#0 of tick 0 ended at tick 4, when the plan does not allow it"
 
 
 def test_a_predicate_that_the_user_does_not_know_is_undefined() -> None:
