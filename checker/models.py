@@ -8,7 +8,9 @@ from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
 
+from checker.codes import OUT_OF_TIME
 from checker.figures import figure_misfits
+from checker.goal_fit import goals_out_of_time
 from checker.influence import Influence, lines_of_influence
 from checker.mission import Mission, parse_mission
 from checker.model_fit import complete, find_misfits, sampling_misfits
@@ -38,7 +40,7 @@ class ModelSet:
     """What the reactors of an agent run. `programs` and `influence` are empty where a diagnostic is an error.
 
     `agent` is the mission's, with every parameter that the models sample and every range filled in. `findings` are what
-    lint warns of in the models, where that was asked for.
+    lint warns of in the models, and of goals for which there is no time, where that was asked for.
     """
 
     agent: AgentConfiguration
@@ -125,7 +127,8 @@ def load_models(mission: Mission, open_text: OpenText = read_text, *, is_linted:
     if mission.figures is not None:
         misfits += figure_misfits(mission.figures, mission.text, agent, programs)
     completed = complete(mission, sites)
-    findings = tuple(_findings(analyses.values(), found)) if is_linted else ()
+    late = (*goals_out_of_time(agent, mission.text), *(one for one in misfits if one.code is OUT_OF_TIME))
+    findings = (*_findings(analyses.values(), found), *late) if is_linted else ()
     return ModelSet(
         completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits), findings
     )

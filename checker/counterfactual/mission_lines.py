@@ -2,23 +2,26 @@
 
 What a goal asks that the conflict speaks of is tried in any case, and so is when goals may come of a reactor whose
 request set the time that the conflict speaks of. So are the times of goals whose rules fill a resource that the
-conflict finds too empty. Of what else goals ask for, the earliest goal that was not achieved is tried; of a property
-that is violated, its ticks.
+conflict finds too empty, and of goals that began as late as they had to and were not over when the mission was. Of
+what else goals ask for, the earliest goal that was not achieved is tried; of a property that is violated, its ticks.
 """
 
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 from checker.causes import failed_by, timed_requests
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.mission import Mission
-from checker.mutation.edits import SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
 from checker.mutation.mission_edits import is_due, mission_sites
 from checker.single_values import single_value
 from compiler.program import DomainConstant
+from nddl_lang.text.diagnostic import Diagnostic
+from nddl_lang.text.read import real_path
 from runtime.executive.configuration import GoalConfiguration, PropertyConfiguration
-from runtime.executive.events import single_events
+from runtime.executive.events import heads_of, single_events
 from runtime.executive.messages import Arguments
 from runtime.executive.outcome import ConflictElement, ElementKind, EventKind, Outcome
 
@@ -29,10 +32,13 @@ _AMONG = 0.1  # of a number that lies among those of the other goals
 _GIVEN_UP = (EventKind.REJECT, EventKind.REFUSE)
 
 
-def mission_lines(mission: Mission, outcome: Outcome, supplying: Collection[str] = ()) -> list[Candidate]:
+def mission_lines(
+    mission: Mission, outcome: Outcome, supplying: Collection[str] = (), findings: Sequence[Diagnostic] = ()
+) -> list[Candidate]:
     """The times of goals that found no place, then what says how the reactors plan, that which ended first.
 
-    `supplying` are the predicates whose rules fill the resource that the conflict finds too empty, or empty it.
+    `supplying` are the predicates whose rules fill the resource that the conflict finds too empty, or empty it. Times
+    of a goal that lint says can never be achieved, by its `findings`, are tried before all else.
     """
     given_up = {(one.timeline, one.predicate) for one in single_events(outcome.events) if one.kind in _GIVEN_UP}
     given_up |= {(one.timeline, one.predicate) for one in outcome.open_goals if one.conflict is not None}
@@ -44,6 +50,8 @@ def mission_lines(mission: Mission, outcome: Outcome, supplying: Collection[str]
     is_judged = outcome.abort is None and not outcome.open_goals  # by its properties
     broken = next((one.name for one in outcome.properties if not one.is_kept), "") if is_judged else ""
     behind = _behind_requests(mission, ended, elements, outcome)
+    cut_off = _cut_off(mission, outcome)
+    lines = {(str(real_path(Path(one.span.source.name))), one.span.line) for one in findings}
     due = _due(mission, outcome)
     troubled = {line for line, _ in given_up} | set(outcome.abort.timelines if outcome.abort is not None else ())
     found = []
@@ -52,9 +60,11 @@ def mission_lines(mission: Mission, outcome: Outcome, supplying: Collection[str]
             goal = mission.agent.goals[number]
             is_supply = goal.predicate in supplying
             is_lost = (goal.timeline, goal.predicate) in given_up
-            if not (is_lost or is_supply or broken or number in behind):
+            sites = [_warned(one, lines) for one in sites]
+            is_without_time = number in cut_off or any(one.wanted for one in sites)
+            if not (is_lost or is_supply or broken or number in behind or is_without_time):
                 continue
-            far = _SPOKEN + _AMONG if is_supply else _LOST if is_lost else _OTHERS
+            far = _SPOKEN + _AMONG if is_supply else _LOST if is_lost or is_without_time else _OTHERS
         elif table == "asked":
             spoken = [one for one in sites if any(one.holds(one.file, place.line) for place in asked)]
             sites = [one for one in sites if number == due or one.wanted or one in spoken]
@@ -78,9 +88,12 @@ def mission_lines(mission: Mission, outcome: Outcome, supplying: Collection[str]
             if table == "goal" and not is_spoken:  # later where others were asked for it in time, or at any time
                 is_spoken = number in behind
                 site = replace(site, edits=site.edits[-1:] if is_spoken else site.edits[:-1] or site.edits)
+                is_spoken = is_spoken or number in cut_off
             source = Suspicion.CONFLICT if is_spoken or table == "property" else Suspicion.TRACE
             nearest = _SPOKEN + _AMONG * bool(site.unlike)
-            found.append(Candidate(site, nearest if is_spoken or site.wanted else far, source))
+            is_warned = table == "goal" and bool(site.wanted)
+            far_off = nearest if is_spoken or site.wanted else far
+            found.append(Candidate(site, far_off, source, is_linted=is_warned))
     return sorted(found, key=lambda one: one.far)
 
 
@@ -105,6 +118,28 @@ def _behind_requests(
         if latest < math.inf
     ]
     return frozenset(number for _, number in sorted(found)[:_MOST_ASKERS])
+
+
+def _warned(site: EditSite, lines: Collection[tuple[str, int]]) -> EditSite:
+    """The site of a goal, its edits wanted where lint warns of one of its lines."""
+    if not any(site.holds(*line) for line in lines):
+        return site
+    return replace(site, wanted=frozenset((one.begin, one.new) for one in site.edits))
+
+
+def _cut_off(mission: Mission, outcome: Outcome) -> frozenset[int]:
+    """The goals that began as soon as they might, or might not yet, and were not over when the mission was."""
+    held = {timeline: (tick, predicate) for _, tick, timeline, predicate in heads_of(outcome.events)}
+    latency = {line: one.latency for one in mission.agent.reactors for line in one.internal}
+    unexplained = {(one.timeline, one.predicate) for one in outcome.open_goals if one.conflict is None}
+    found = set()
+    for number, goal in enumerate(mission.agent.goals):
+        earliest = goal.start[0] if goal.start is not None else 0
+        tick, predicate = held.get(goal.timeline, (0, ""))
+        is_early = predicate == goal.predicate and tick <= earliest + latency.get(goal.timeline, 0) + 1
+        if earliest > 0 and (goal.timeline, goal.predicate) in unexplained and outcome.abort is None:
+            found |= {number} if is_early or earliest >= outcome.last_tick else set()
+    return frozenset(found)
 
 
 def _due_still(edits: Sequence[SmallEdit], kept: PropertyConfiguration, outcome: Outcome) -> tuple[SmallEdit, ...]:

@@ -10,6 +10,7 @@ from pathlib import Path
 from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.causes import failed_by
+from checker.codes import OUT_OF_TIME
 from checker.counterfactual.candidates import candidates_of
 from checker.counterfactual.damage import HEAVY, voided_of
 from checker.counterfactual.dependence import Dependence
@@ -52,7 +53,7 @@ class Suspended:
     flyer: Flyer
     overlay: Overlay = ()
     mission: Mission | None = None  # whose file is tried too
-    findings: tuple[Diagnostic, ...] = ()  # what lint warns of in the models
+    findings: tuple[Diagnostic, ...] = ()  # what lint warns of in the models, and of goals without enough time
 
 
 class CauseSearch:
@@ -121,9 +122,9 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     text = text_of(world.agent, models)
     agent = world.agent
     candidates = candidates_of(outcome, graph, Path(agent.root), agent.properties, exercised, text, coded=agent.coded)
-    candidates = with_remarks(candidates, world.findings)
+    candidates = with_remarks(candidates, [one for one in world.findings if one.code is not OUT_OF_TIME])
     supplying = graph.supplying(lacking_in(failed_by(outcome).conflict))
-    last = mission_lines(world.mission, outcome, supplying) if world.mission is not None else ()
+    last = mission_lines(world.mission, outcome, supplying, world.findings) if world.mission is not None else ()
     bounds = bounds.grown(sum(len(one.site.edits) for one in candidates), len(outcome.events))
     trials = try_out(candidates, missions, usage, partial(_fly, world), bounds, last, graph.beside)
     return replace(trials, loose=loose_ends(graph, candidates, usage))
