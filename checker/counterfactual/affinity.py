@@ -41,7 +41,9 @@ class Affinity:
         self._named = named
         self._company: dict[str, Counter[str]] = defaultdict(Counter)
         self._texts = Counter(_plain(site.text) for site in sites)
-        self._formulas = Counter(found for site in sites if site.rule and (found := _formula(_plain(site.text))))
+        formulas = [(site, found) for site in sites if site.rule and (found := _formula(_plain(site.text)))]
+        self._formulas = Counter(found for _, found in formulas)
+        self._computed = {(site.file, site.scope, found) for site, found in formulas}
         self._in_rule = Counter((site.file, site.scope, _plain(site.text)) for site in sites if site.rule)
         self._tokens: dict[tuple[str, tuple[int, int], str], str] = {}  # what the label of a token in a rule stands for
         for site in sites:
@@ -100,9 +102,13 @@ class Affinity:
         return bool(text) and self._elsewhere(site, text) > 0
 
     def makes_formula(self, edit: SmallEdit, site: EditSite) -> bool:
-        """Whether a line then computes what a line of another rule computes for something else, and does not before."""
+        """Whether a line then computes what a line of another rule computes for something else, and does not before.
+
+        What its own rule computes in another branch needs no condition.
+        """
         before, after = _formula(_plain(site.text)), _formula(_after(edit, site))
-        return bool(after) and after != before and self._formulas[after] > 0 and self._formulas[before] <= 1
+        is_apart = (site.file, site.scope, after) not in self._computed
+        return bool(after) and is_apart and self._formulas[after] > 0 and self._formulas[before] <= 1
 
     def repeats(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether its rule then has the line twice."""

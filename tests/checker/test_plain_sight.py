@@ -219,3 +219,23 @@ def test_a_number_is_changed_less_where_a_large_change_is_as_bad_in_another_way(
     assert [edit.new for edit in between(large["160"], site)] == ["32", "64"]
     assert [edit.new for edit in between(large["2"], site)] == ["8", "4"]
     assert between(large["32"], site) == []
+
+
+@pytest.mark.parametrize("is_apart", [True, False])
+def test_what_another_rule_computes_tells_what_is_meant_and_what_another_branch_does_not(
+    is_apart: bool, tmp_path: Path
+) -> None:
+    end = "}\nBath::Rinse { float time; time == tank.soaking * drift; " if is_apart else " else { SOAK }"
+    rule = "Bath::Soak { float time; if (deep) { time == tank.washing * drift; }" + end
+    (tmp_path / "m.nddl").write_text(
+        "class Tank { int soaking; int washing; Tank(int a, int b) { soaking = a; washing = b; } }\n"
+        "Tank tank = new Tank(40, 70);\n"
+        "class Bath extends Timeline { predicate Soak { bool deep; float drift; } predicate Rinse { float drift; } }\n"
+        + rule.replace("SOAK", "time == tank.soaking * drift;")
+        + " duration == ceil(time); }\n"
+    )
+    found = sites_of(load_graph(tmp_path / "m.nddl", ()))
+    usage = usage_of(found)
+    delay = delay_of(*change(found, "time == tank.washing * drift;", EditKind.NAME, "tank.soaking"), usage)
+    assert delay is not None
+    assert (delay == -1.0) is is_apart  # seen without any flight
