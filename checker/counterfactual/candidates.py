@@ -6,6 +6,7 @@ lines that bear on these. Where a property was violated, or a reactor ended with
 stands for them. Lines of rules whose predicate never held, nor was asked for in the mission, come after all others.
 """
 
+import math
 import re
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -18,6 +19,7 @@ from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.python_ways import read_in_python
 from checker.counterfactual.removals import forbidden_by, limited_between, removes_check
 from checker.counterfactual.smallness import is_loosening
+from checker.counterfactual.time_spent import time_spent
 from checker.culprit import culprit_of, own_elements
 from checker.mutation.edits import EditSite, SmallEdit
 from checker.oracle import given_up
@@ -173,6 +175,10 @@ def candidates_of(
         for number in sorted(numbers):
             if number not in roots or roots[number][0] > far:
                 roots[number] = (far, Suspicion.TRACE)
+    for predicate, share in time_spent(outcome).items():
+        for number in graph.lasting(predicate):
+            if number not in roots or roots[number][0] > -math.log(share):
+                roots[number] = (-math.log(share), Suspicion.TRACE)
     for span in exercised:
         for number in graph.within(span):
             if number not in roots or roots[number][0] > _COVERED:

@@ -116,6 +116,15 @@ class Dependence:
         key = ("token", predicate, TIMES if variable in (DURATION_NAME, "end") else variable)
         yield from sorted(one for one in self._users.get(key, ()) if self.sites[one].rule == predicate)
 
+    def lasting(self, predicate: str) -> Iterator[int]:
+        """The sites in the rules of a predicate, whatever its class, that say with `==` how long its tokens last."""
+        for key in [key for key in self._users if key[0] == "token" and key[2] == TIMES]:
+            if str(key[1]).rpartition(".")[2] == predicate:
+                yield from (one for one in self.setting(str(key[1]), DURATION_NAME) if self._is_duration(one))
+
+    def _is_duration(self, site: int) -> bool:
+        return re.match(rf"\s*{DURATION_NAME}\s*==", self.sites[site].text) is not None
+
     def behind(self, predicate: str, variable: str) -> Iterator[tuple[int, int]]:
         """The sites of `setting`, and those behind them by local variables of the rule, each with how many steps."""
         found = dict.fromkeys(self.setting(predicate, variable), 0)

@@ -1,0 +1,53 @@
+"""A mission that was too late by the clock in; out: what its time went on, the share of each predicate.
+
+Where a conflict rests on a time that the mission file gives, or the mission's time was over, all that was asked for and
+done before counts: what took twice the time is twice as likely to be what took too long.
+"""
+
+from checker.causes import failed_by
+from compiler.program import TOKEN_TIMES
+from runtime.executive.events import heads_of, single_events
+from runtime.executive.outcome import ElementKind, EventKind, Outcome
+
+_MOMENTS = TOKEN_TIMES[:2]
+
+
+def time_spent(outcome: Outcome) -> dict[str, float]:
+    """The share of the time until the end that each predicate held that was asked for, where that was longest.
+
+    Nothing where the mission was not too late by the clock.
+    """
+    if not _is_late_by_clock(outcome) or outcome.last_tick < 1:
+        return {}
+    asked = {one.predicate for one in single_events(outcome.events) if one.kind is EventKind.REQUEST}
+    held: dict[tuple[str, str], int] = {}
+    now: dict[str, tuple[str, int]] = {}
+    for _, tick, timeline, predicate in heads_of(outcome.events):
+        if timeline in now:
+            _add(held, timeline, now[timeline], tick)
+        now[timeline] = (predicate, tick)
+    for timeline, last in now.items():
+        _add(held, timeline, last, outcome.last_tick)
+    found: dict[str, float] = {}
+    for (_, predicate), ticks in held.items():
+        if predicate in asked and ticks > 0:
+            found[predicate] = max(found.get(predicate, 0.0), ticks / outcome.last_tick)
+    return found
+
+
+def _add(held: dict[tuple[str, str], int], timeline: str, begun: tuple[str, int], until: int) -> None:
+    key = timeline, begun[0]
+    held[key] = held.get(key, 0) + until - begun[1]
+
+
+def _is_late_by_clock(outcome: Outcome) -> bool:
+    """Whether a mission failed by a moment that the mission file gives, or as its time was over."""
+    conflict = failed_by(outcome).conflict
+    if conflict is None:
+        return outcome.abort is None and bool(outcome.open_goals)
+    return any(
+        one.kind is ElementKind.REQUEST
+        and one.place is not None
+        and any(each.name in _MOMENTS for each in one.variables)
+        for one in conflict.elements
+    )
