@@ -6,7 +6,8 @@ from checker.batch.result import MissionResult
 from checker.causes import timed_requests
 from checker.limits import Limit
 from checker.oracle import Judgement
-from runtime.executive.configuration import AgentConfiguration, PropertyKind
+from checker.single_values import single_value
+from runtime.executive.configuration import AgentConfiguration, PropertyKind, TokenPattern
 from runtime.executive.events import events_on, numbered, single_events
 from runtime.executive.outcome import Conflict, Event, EventKind, Outcome, ReasonKind
 
@@ -40,7 +41,10 @@ def lost_events(outcome: Outcome, limit: Limit) -> list[Event]:
 
 
 def promised_events(result: MissionResult, outcome: Outcome, agent: AgentConfiguration) -> list[Event]:
-    """What a violated property is about: what it follows on, and what became of the requests for what it promises."""
+    """What a violated property is about: what it follows on, and what became of the requests for what it promises.
+
+    Of these only those that were to come in time, and the first one after that, which was too late.
+    """
     broken = result.judgement.broken
     kept = next((one for one in agent.properties if broken is not None and one.name == broken.name), None)
     if kept is None or kept.level is not None or broken is None:
@@ -51,9 +55,24 @@ def promised_events(result: MissionResult, outcome: Outcome, agent: AgentConfigu
     wanted = kept.pattern if kept.kind is PropertyKind.REACHED else kept.then
     if wanted is not None:
         since = found[0].tick if found and kept.kind is PropertyKind.WITHIN else 0
-        asked = [one for one in events if one.kind in _ASKED and one.timeline == wanted.timeline and one.tick >= since]
-        found += [one for one in asked if wanted.predicate in ("", one.predicate)][-_MOST_PROMISED:]
+        due = (broken.tick or 0) + (kept.ticks if kept.kind is PropertyKind.WITHIN else 0)
+        asked = [one for one in events if one.kind in _ASKED and _may_match(one, wanted)]
+        late = next((one for one in asked if one.kind is EventKind.REQUEST and one.tick > due), None)
+        told = [one for one in asked if since <= one.tick <= due or one is late][-_MOST_PROMISED:]
+        answered = {one.request for one in told if one.kind is not EventKind.REQUEST}
+        found += [one for one in asked if one in told or (one.kind is EventKind.REQUEST and one.request in answered)]
     return found
+
+
+def _may_match(event: Event, pattern: TokenPattern) -> bool:
+    """Whether an event is about what a pattern says, as far as its arguments are known."""
+    values = {name: single_value(domain) for name, domain in event.arguments}
+    is_other = any(
+        values.get(name) is not None and values[name] != wanted
+        for name, wanted in pattern.parameters
+        if not isinstance(wanted, tuple)
+    )
+    return event.timeline == pattern.timeline and pattern.predicate in ("", event.predicate) and not is_other
 
 
 def failed_owner(judgement: Judgement, outcome: Outcome) -> list[Event]:

@@ -5,11 +5,22 @@ from pathlib import Path
 
 import pytest
 
+from checker.batch.worker import fly_one
+from checker.campaign import Campaign
+from checker.mission import read_mission
+from checker.models import load_models
+from checker.oracle import Verdict
+from checker.pinned import pinned
+from checker.single_values import single_value
+from checker.told_events import promised_events
 from nddlc.main import run
+from tests.checker.fault_study import faults_in, laid_out
 
 pytestmark = pytest.mark.once
 
 LOOKOUT = Path(__file__).parents[2] / "models/templates/lookout"
+DEPOT = Path(__file__).parent / "unseen" / "depot"
+LATE = 12  # a mission in which a driver leaves too late, and others in time
 
 
 def test_the_story_of_a_property_tells_what_was_asked_for_and_refused(
@@ -30,3 +41,23 @@ def test_the_story_of_a_property_tells_what_was_asked_for_and_refused(
     )
     assert seen < asked < refused
     assert "there is no parameter `knots` (there is none)" in lines[refused]
+
+
+def test_requests_that_could_not_keep_the_promise_any_more_are_not_told_in_place_of_the_refusal(tmp_path: Path) -> None:
+    place = laid_out(DEPOT, next(faults_in(DEPOT)), tmp_path / "depot")
+    mission, _ = read_mission(place / "mission.toml")
+    assert mission is not None
+    models = load_models(mission)
+    given = Campaign(mission, models, pinned(models))
+    result = fly_one(given.load(models.agent), given.task(LATE))
+    assert result.verdict is Verdict.FAIL and result.outcome is not None
+    told = promised_events(result, result.outcome, models.agent)
+    numbers = [single_value(dict(one.arguments)["tram"]) for one in told]
+    assert [(one.tick, str(one.kind)) for one in told] == [
+        (302, "observation"),
+        (334, "request"),
+        (334, "reject"),
+        (335, "recall"),
+        (366, "request"),
+    ]
+    assert set(numbers) == {2}
