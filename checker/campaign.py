@@ -233,13 +233,21 @@ class Campaign:
     def _text(self) -> ModelText:
         return text_of(self.models.agent, self.models.programs)
 
-    def story(self, result: MissionResult, fault: Fault | None, results: Sequence[MissionResult] = ()) -> Story:
+    def story(
+        self,
+        result: MissionResult,
+        fault: Fault | None,
+        results: Sequence[MissionResult] = (),
+        contrast: Contrast | None = None,
+    ) -> Story:
         """Why a mission failed; what passes all the same among `results` is no reason."""
         models, outcome = self.models, result.outcome
         behaviour = outcome.behaviour if outcome is not None and models.programs else ()  # none: in error by now
         programs = [models.programs[each.model] for each in models.agent.reactors] if behaviour else []
         taken = branches_taken(programs, behaviour) if programs else None
-        return tell(result, models.agent, models.influence, fault, self._text(), taken, usual_breaking(results))
+        decisive = [one.parameter for one in contrast.decisive] if contrast is not None else ()
+        usual = usual_breaking(results)
+        return tell(result, models.agent, models.influence, fault, self._text(), taken, usual, decisive)
 
     def pairs(self, findings: Findings) -> list[Pair | None]:
         """The example of each fault with a passing mission near to it, which is flown again for its events."""

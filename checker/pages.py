@@ -54,7 +54,8 @@ def explanations(
             if told is None or time.monotonic() >= until:
                 break
             flights = None if fault.causes.ended is TrialsEnd.COMPLETE else fault.causes.flights
-            page = page_text(story, told[0], findings.run_id, excerpts)
+            again = campaign.story(example, fault, results, told[0])
+            page = page_text(again, told[0], findings.run_id, excerpts)
             found.append(Explanation(example.number, example.number == first, flights, sources, page))
     return found
 

@@ -73,11 +73,12 @@ def tell(
     text: ModelText | None = None,
     taken: Container[Branch] | None = None,
     usual: Container[Breaking] = frozenset(),
+    decisive: Sequence[str] = (),
 ) -> Story:
     """The story of a mission that failed and whose outcome is at hand; z3 reads the meaning of lines from `text`.
 
     `taken` are the branches that the mission took, if that is known; `usual` is where plans break although missions
-    pass.
+    pass; `decisive` are the parameters that set the mission apart from one that passes.
     """
     outcome = result.outcome
     assert outcome is not None
@@ -87,7 +88,7 @@ def tell(
     broken = None if fails_by_repairs(result) else first
     conflicts = [one for one in (conflict, broken.conflict if broken is not None else None) if one is not None]
     confirmation = _confirmed(result, conflict, fault, text)
-    parameters = suspects(outcome, fault, first)
+    parameters = tuple(dict.fromkeys((*suspects(outcome, fault, first), *decisive)))
     until = _decided_at(result, outcome)
     acting = _acting(influence, outcome, until, taken, conflicts)
     draws = _draws(outcome, agent, acting, parameters, until, conflicts)

@@ -174,9 +174,9 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
         now = "model, mission file or nddlc have changed since this run" if is_read else "the models are in error now"
         say(f"{now}; the explanation is of what was flown\n\n")
     if result.verdict is Verdict.FAIL:
-        story = campaign.story(result, found.fault, found.results)
-        most = len(found.fault.causes.ranked) if found.fault is not None and verbose else MOST_CAUSES
         contrast = campaign.contrast(result, found.results, found.fault) if found.is_same else None
+        story = campaign.story(result, found.fault, found.results, contrast)
+        most = len(found.fault.causes.ranked) if found.fault is not None and verbose else MOST_CAUSES
         drawn = f"\nthe causal graph, each node with the numbers of its causes:\n{graph_text(graph)}" if graph else ""
         text = page_text(story, contrast, found.run_id, excerpts, most, drawn)
         plain = story_data(story, found.run_id, excerpts)

@@ -4,11 +4,22 @@ from pathlib import Path
 
 import pytest
 
+from checker.batch.worker import fly_one
+from checker.campaign import Campaign
+from checker.contrast import Contrast, Difference
+from checker.mission import read_mission
+from checker.models import load_models
+from checker.oracle import Verdict
+from checker.pinned import pinned
 from checker.steps import StepKind
 from runtime.executive.outcome import Draw, Event, EventKind
+from tests.checker.fault_study import faults_in, laid_out
 from tests.checker.told_steps import JOB_MISSION, steps_of
 
 pytestmark = pytest.mark.once
+
+DEPOT = Path(__file__).parent / "unseen" / "depot"
+TOO_LITTLE_TIME, LONG_WASH = 4, 14  # the fault, and a mission in which charging and washing take long together
 
 SHARED = """#include "TREX.nddl"
 class Job extends AgentTimeline { predicate Idle { } predicate Do { } Job(Mode m) { super(m, "Idle"); } }
@@ -52,3 +63,19 @@ def test_each_draw_stands_before_what_came_of_it(tmp_path: Path, number: int) ->
     assert steps[drawn[0]].tick == 0
     ticks = [one.tick for one in steps if one.kind in (StepKind.DRAW, StepKind.EVENT) and one.tick is not None]
     assert ticks == sorted(ticks)
+
+
+def test_each_draw_is_told_that_sets_the_mission_apart(tmp_path: Path) -> None:
+    place = laid_out(DEPOT, list(faults_in(DEPOT))[TOO_LITTLE_TIME], tmp_path / "depot")
+    mission, _ = read_mission(place / "mission.toml")
+    assert mission is not None
+    models = load_models(mission)
+    campaign = Campaign(mission, models, pinned(models))
+    result = fly_one(campaign.load(models.agent), campaign.task(LONG_WASH))
+    assert result.verdict is Verdict.FAIL
+    apart = Contrast(18, (Difference("CURRENT", 1.4, 1.1), Difference("DIRT", 1.4, 0.9)), True, 4, (), 0)
+    told = []
+    for contrast in (None, apart):
+        subjects = [one.subject for one in campaign.story(result, None, (), contrast).steps]
+        told.append({one[0].parameter for one in subjects if isinstance(one, tuple) and isinstance(one[0], Draw)})
+    assert told == [{"CURRENT"}, {"CURRENT", "DIRT"}]
