@@ -8,6 +8,7 @@ from checker.statistics import Interval
 
 # A condition of less precision or recall is marked as partial: one of 0.95 is not, and figures are those of a sample.
 _PARTIAL_BELOW = 0.97
+_TELLING = 59  # missions of which one in twenty that were otherwise would have shown itself, 19 times of 20
 Span = tuple[float, float]  # the least and the greatest draw of a parameter; twice the same of one drawn once
 Row = Mapping[str, Span]  # what one mission drew, by parameter
 
@@ -114,6 +115,11 @@ class Condition:
     def is_partial(self) -> bool:
         """Whether it may leave out, or take in, more than a twentieth."""
         return min(self.precision.value, self.recall.value) < _PARTIAL_BELOW
+
+    @property
+    def is_thin(self) -> bool:
+        """Whether it was tried on too few missions to say that no more than one in twenty is otherwise."""
+        return self.fresh < _TELLING
 
     @property
     def parameters(self) -> tuple[str, ...]:

@@ -3,6 +3,7 @@
 from typing import Any
 
 from checker.conditions.condition import Condition, Conjunction, Extreme, Feature, Literal, Share, Unseen
+from nddl_lang.text.printable import counted
 
 
 def condition_text(condition: Condition) -> str:
@@ -12,14 +13,22 @@ def condition_text(condition: Condition) -> str:
 
 def condition_claim(condition: Condition) -> str:
     """A condition with its measured quality, as the end of a sentence that begins with `fails`."""
-    partly = "in part when" if condition.is_partial else "when"
-    return f"{partly} {condition_text(condition)} ({condition_evidence(condition)})"
+    return f"{when_text(condition)} {condition_text(condition)} ({condition_evidence(condition)})"
+
+
+def when_text(condition: Condition) -> str:
+    """The word before a condition: whether it is the whole of it, and whether that is known."""
+    if condition.is_partial:
+        return "in part when"
+    return f"as far as {counted(condition.fresh, 'mission')} tell when" if condition.is_thin else "when"
 
 
 def condition_lines(condition: Condition, indent: str = "") -> list[str]:
     """A condition for people: the claim, and below it how well it holds and how it was found."""
-    partly = "in part when" if condition.is_partial else "when"
-    return [f"{indent}fails {partly} {condition_text(condition)}", f"{indent}  {condition_evidence(condition)}"]
+    return [
+        f"{indent}fails {when_text(condition)} {condition_text(condition)}",
+        f"{indent}  {condition_evidence(condition)}",
+    ]
 
 
 def condition_evidence(condition: Condition) -> str:

@@ -7,7 +7,7 @@ from importlib.resources import files
 from itertools import groupby
 
 from checker.batch.result import MissionResult
-from checker.conditions.rendering import condition_evidence, condition_text
+from checker.conditions.rendering import condition_evidence, condition_text, when_text
 from checker.counterfactual.rendering import cause_text
 from checker.drawn import Drawn
 from checker.excerpts import Excerpts
@@ -153,7 +153,7 @@ def _fault(
     if places:
         parts.append("<pre>" + "\n".join(_excerpt(place, excerpts, marked=True) for place in places) + "</pre>")
     if fault.condition is not None:
-        when = "in part when" if fault.condition.is_partial else "when"
+        when = when_text(fault.condition)
         text = escape(condition_text(fault.condition))
         evidence = escape(condition_evidence(fault.condition))
         parts.append(f'<p class="when">fails {when} <b>{text}</b></p><p class="soft">{evidence}.</p>')

@@ -190,6 +190,9 @@ def test_words_of_conditions() -> None:
     assert condition_text(told) == "0.25 < P <= 0.5, or a draw of Q > 3.8, or every draw of Q <= 3.8"
     assert condition_claim(told).startswith("in part when 0.25 < P")
     assert "partial: precision 90 % (80 % to 95 %)" in condition_claim(told)
+    sure = Share(1.0, (0.63, 1.0))
+    for fresh, said in ((12, "as far as 12 missions tell when 0.25"), (59, "when 0.25")):
+        assert condition_claim(replace(told, precision=sure, recall=sure, fresh=fresh)).startswith(said)
     product = Feature(((2.0, (("P", 1), ("Q", -1))), (-1.0, (("R", 2),))))
     told = replace(told, conjunctions=((Literal(product, True, 0.1),),), in_terms=(high,))
     assert condition_text(told) == "2 * P / Q - R * R > 0.1"
