@@ -9,6 +9,7 @@ from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.campaign import Campaign
 from checker.contrast import Contrast, Trace
+from checker.counterfactual.effort import Stopwatch
 from checker.counterfactual.ranking import Causes
 from checker.counterfactual.trials import TrialsEnd
 from checker.excerpts import Excerpts
@@ -19,7 +20,7 @@ from checker.oracle import Verdict
 from checker.story import Story
 from runtime.executive.configuration import AgentConfiguration
 
-_MOST_SECONDS = 10.0  # for what sets the examples apart, which is flown
+_MOST_SECONDS = 10.0  # of the processor, for what sets the examples apart, which is flown
 
 
 def explanations(
@@ -34,14 +35,14 @@ def explanations(
     """The pages; `results` are all that the store has of the run. What the time does not suffice for is left out."""
     by_number = {one.number: one for one in results}
     first = min((one.number for one in results if one.verdict is Verdict.FAIL), default=0)
-    until = time.monotonic() + _MOST_SECONDS
     found: list[Explanation] = []
     with Flyer(campaign.load, campaign.models.agent, campaign.mission.check.time_limit) as flyer:
+        watch = Stopwatch(lambda: time.process_time() + flyer.processor_seconds)
 
         def trace(agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
-            left = until - time.monotonic()
-            if left <= 0:
+            if watch.has_passed(_MOST_SECONDS):
                 return by_number[number]  # what comes of it is not kept
+            left = _MOST_SECONDS - watch.seconds
             return campaign.judged(flyer.fly(agent, number, seed, keeps_trace=True, most_seconds=left))
 
         for fault, story in zip(findings.faults, stories, strict=True):
@@ -51,7 +52,7 @@ def explanations(
             told = let(partial(_told, campaign, example, results, fault, trace))
             if told is None:
                 flyer.dismiss()  # it may be in the middle of a flight
-            if told is None or time.monotonic() >= until:
+            if told is None or watch.has_passed(_MOST_SECONDS):
                 break
             flights = None if fault.causes.ended is TrialsEnd.COMPLETE else fault.causes.flights
             again = campaign.story(example, fault, results, told[0])
