@@ -25,6 +25,7 @@ from compiler.program import ParameterSite, Program
 from nddl_lang.analysis import Analysis, analyse
 from nddl_lang.lint.configuration import settings_in
 from nddl_lang.lint.linter import lint
+from nddl_lang.repair import repaired
 from nddl_lang.semantics.callables import Callables
 from nddl_lang.syntax.includes import OpenText
 from nddl_lang.text.diagnostic import Diagnostic, Severity
@@ -108,7 +109,7 @@ def load_models(mission: Mission, open_text: OpenText = read_text, *, is_linted:
     solvers = dict.fromkeys(each.solver for each in agent.reactors if each.solver is not None)
     configured = [_opened(root / name, open_text) for name in solvers]
     texts |= {name: source.text for name, source in zip(solvers, configured, strict=True)}
-    told = [analysis.diagnostics for analysis in analyses.values()]
+    told = [repaired(analysis).diagnostics for analysis in analyses.values()]
     readings = [read_configuration(source) for source in configured]
     told += [complaints for _, complaints in readings]
     found: dict[_Place, Diagnostic] = {}

@@ -107,8 +107,8 @@ class Analyser:
         self._supposed: dict[Entry, object] = {}
         self._dialect: Dialect | None = None
 
-    def analyse(self, loaded: LoadedModules) -> Analysis:
-        """The analysis of what has been read."""
+    def _check_all(self, loaded: LoadedModules) -> SymbolTable:
+        """Check all statements, or keep what is known of them; what they leave behind together."""
         if loaded.dialect is not self._dialect:
             self._units, self._dialect = {}, loaded.dialect
         statements = loaded.module.statements
@@ -147,6 +147,12 @@ class Analyser:
         changed |= _changed_by(gone, [units[each] for each in statements[first:last]])
         keep(before[len(before) - len(statements) + last :])
         self._units, self._supposed = units, supposed
+        return symbols
+
+    def analyse(self, loaded: LoadedModules) -> Analysis:
+        """The analysis of what has been read."""
+        symbols = self._check_all(loaded)
+        units = self._units
         echoes = _Echoes(loaded)
         complaints: list[tuple[int, tuple[Diagnostic, ...]]] = []
         for index, unit in enumerate(units.values()):
@@ -157,7 +163,16 @@ class Analyser:
         found = name_misspelt_declaration(loaded.sources, tuple(_in_order(loaded, complaints)), declared)
         found = name_missing_include(loaded, found, _declared_names)
         by_statement = {statement: unit.tables for statement, unit in units.items()}
-        return Analysis(loaded, statements, symbols.schema, by_statement, found, self._callables)
+        return Analysis(loaded, loaded.module.statements, symbols.schema, by_statement, found, self._callables)
+
+    def is_sound(self, loaded: LoadedModules) -> bool:
+        """Whether nothing is wrong with the meaning of what has been read: a trial."""
+        symbols = self._check_all(loaded)
+        return not any(
+            each.severity is Severity.ERROR
+            for unit in self._units.values()
+            for each in (*unit.complaints, *_deferred(symbols, unit, loaded, self._callables))
+        )
 
     def _note_declarations(self, symbols: SymbolTable, loaded: LoadedModules) -> None:
         """Note what is declared where, and which names are doubtful because text was not understood or is missing."""

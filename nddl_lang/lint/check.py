@@ -4,12 +4,13 @@ from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
-from nddl_lang.analysis import Analyser
+from nddl_lang.analysis import analyse
 from nddl_lang.lint.linter import Linter
 from nddl_lang.lint.mending import Mended, mend, text_to_mend
 from nddl_lang.lint.settings import Settings
 from nddl_lang.lint.unused import OF_ALL_MODELS
 from nddl_lang.misspelt_declaration import name_misspelt_part
+from nddl_lang.repair import repaired
 from nddl_lang.syntax.codes import UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import load_module_graph
@@ -86,7 +87,9 @@ class Checker:
             if included is not source and (part := real_path(place)) in self._parts:
                 self._part_of[included] = part
                 self._readers[part] += is_counted
-        analysis = Analyser(settings.callables).analyse(loaded)
+        analysis = analyse(loaded, settings.callables)
+        if is_counted:  # else fixes are carried out, of consequences as well
+            analysis = repaired(analysis)
         if is_counted and analysis.has_errors:
             self._sources += loaded.sources
             self._declared += (name for tables in analysis.by_statement.values() for name in tables.declared)

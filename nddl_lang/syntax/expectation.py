@@ -1,5 +1,7 @@
 """Say in words what could have stood at a place where something else stands."""
 
+from collections.abc import Sequence
+
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS, RULES
 
 _VALUE_STARTS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", "(", "[", "SET", "new", "-", "!"))
@@ -19,16 +21,21 @@ _NAMES = {
 _MOST = 4
 
 
-def accepts(states: list[int], kinds: list[str]) -> bool:
+def accepts(states: list[int], kinds: Sequence[str]) -> bool:
     """Whether the parser, standing in `states`, could take in `kinds` one after the other."""
+    return states_after(states, kinds) is not None
+
+
+def states_after(states: list[int], kinds: Sequence[str]) -> list[int] | None:
+    """The states of the parser that has taken in `kinds`, standing in `states` before; None where it could not."""
     states = states.copy()
     for kind in kinds:
         while True:
             action = ACTIONS[states[-1]].get(kind)
             if action is None:
-                return False
+                return None
             if action == 0:
-                return True
+                return states
             if action > 0:
                 states.append(action)
                 break
@@ -36,7 +43,7 @@ def accepts(states: list[int], kinds: list[str]) -> bool:
             if size:
                 del states[-size:]
             states.append(GOTOS[states[-1]][head])
-    return True
+    return states
 
 
 def expected_kinds(states: list[int]) -> set[str]:

@@ -138,9 +138,12 @@ def _without_call(b: Builder, type_name: Identifier, declarator: Declarator) -> 
     assert value is not None
     mend = f"{name} = {value.span.text}"
     is_plain = type_name.name in BASE_TYPES
-    help_text = "" if is_plain else f"; for an object of a class, `{name} = new {type_name.name}({value.span.text})`"
+    made = f"{name} = new {type_name.name}({value.span.text})"
+    help_text = "" if is_plain else f"; for an object of a class, `{made}`"
     fix = Fix(f"write `{name} = ...`", (Edit(declarator.span, mend),), safe=is_plain)
-    b.report(CALL_INITIALISER, declarator.span, name=name, help=f"write `{name} = ...`{help_text}", fixes=(fix,))
+    other = Fix(f"write `{made}`", (Edit(declarator.span, made),), safe=False)
+    fixes = (fix,) if is_plain else (fix, other)
+    b.report(CALL_INITIALISER, declarator.span, name=name, help=f"write `{name} = ...`{help_text}", fixes=fixes)
     return declarator if is_plain else Declarator(declarator.name, None, True, declarator.span)
 
 

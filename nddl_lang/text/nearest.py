@@ -11,12 +11,13 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
     """The candidate that differs least from `name`; None where all differ too much.
 
     A slip is a letter put in, left out or replaced, or two neighbours swapped; capitals are none. Of several the one
-    of the same letters is taken, then the one that begins most alike, that ends most alike, and then the first.
+    of the same letters is taken, then the one that begins most alike, that ends most alike, that is in capitals where
+    `name` is, and then the first.
     """
     limit = min(max(1, len(name) // 3), _MOST_SLIPS)
     folded = name.casefold()
     best: str | None = None
-    best_distance, best_likeness = limit, (False, -1, -1)
+    best_distance, best_likeness = limit, (False, -1, -1, False)
     letters, compared = set(folded), 0
     for candidate in candidates:
         if candidate == name or abs(len(candidate) - len(name)) > best_distance or compared >= _MOST_COMPARED:
@@ -30,7 +31,8 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
         if distance > best_distance:
             continue
         same_letters = sorted(folded) == sorted(other)
-        likeness = (same_letters, _common(folded, other), _common(folded[::-1], other[::-1]))
+        ends = _common(folded[::-1], other[::-1])
+        likeness = (same_letters, _common(folded, other), ends, candidate.isupper() == name.isupper())
         if distance < best_distance or likeness > best_likeness:
             best, best_distance, best_likeness = candidate, distance, likeness
     return best

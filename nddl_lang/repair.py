@@ -1,0 +1,233 @@
+"""Least-cost repair: an analysis with errors in; the same out, where the smallest edit that leaves none is the help.
+
+The checker itself judges (as in Lerner, Flower, Grossman and Chambers, "Searching for type-error messages", PLDI 2007):
+each small edit near an error is tried, cheapest first, and what vanishes with the first one that leaves the model
+without errors is its consequence, and is not told. A fix that a message proposes itself is tried before all others. How
+much is tried is counted in characters and statements, never in time.
+"""
+
+from bisect import bisect_left
+from collections.abc import Generator, Iterator, Sequence
+from dataclasses import replace
+from functools import cached_property
+
+from nddl_lang.analysis import Analyser, Analysis
+from nddl_lang.syntax.nodes import Include, Module, Statement
+from nddl_lang.syntax.parser import Parse, parse_block
+from nddl_lang.syntax.piece import Piece
+from nddl_lang.syntax.placement import TOP
+from nddl_lang.syntax.token_edits import Lexemes, LineGrammar, TokenEdit, neighbours, token_edits
+from nddl_lang.syntax.words import KINDS
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Severity
+from nddl_lang.text.source import Anchor, Source, Span
+
+_MOST_ERRORS = 12  # of a model that was meant to be another one by one small edit
+_MOST_LINES = 3  # that are searched
+_MOST_CHARACTERS = 200_000  # that are parsed in trials
+_MOST_STATEMENTS = 40_000  # that are looked at in trials
+_MOST_MEANT = 3  # repairs of one cost that are told side by side
+_DEAREST_BESIDE_HELP = 1899  # what costs more is no better than what the message says itself
+_WIDEST = 80
+_SIGNS = frozenset("=<>!&|:+-*/")
+
+
+def repaired(analysis: Analysis) -> Analysis:
+    """`analysis` with one message for what one small edit would mend, where there is such an edit."""
+    search = repair(analysis)
+    while True:
+        try:
+            next(search)
+        except StopIteration as end:
+            found: Analysis = end.value
+            return found
+
+
+def repair(analysis: Analysis) -> Generator[None, None, Analysis]:
+    """Like `repaired`, in steps: one for each trial, so that an editor may stop between them."""
+    errors = [each for each in analysis.diagnostics if each.severity is Severity.ERROR]
+    if not errors or len(errors) > _MOST_ERRORS:
+        return analysis
+    told = yield from _told(_Trials(analysis), errors)
+    if told is None:
+        return analysis
+    kept = (each for each in analysis.diagnostics if each.severity is not Severity.ERROR)
+    return replace(analysis, diagnostics=(told, *kept))
+
+
+def _told(trials: "_Trials", errors: Sequence[Diagnostic]) -> Generator[None, None, Diagnostic | None]:
+    """The one message of a model that one edit would mend; None where none is found."""
+    for error in errors:
+        for fix in error.fixes:
+            source = error.span.source
+            if all(edit.span.source is source for edit in fix.edits):
+                edits = tuple((edit.span.begin, edit.span.finish, edit.text) for edit in fix.edits)
+                if trials.mends(source, edits):
+                    return error
+                yield
+    is_helped = len(errors) == 1 and errors[0].help is not None and not errors[0].fixes
+    best: list[TokenEdit] = []
+    place: Diagnostic | None = None
+    for error, edit in trials.edits(errors):
+        if trials.are_spent or (is_helped and edit.cost > _DEAREST_BESIDE_HELP):
+            break
+        if place is not None and (error is not place or edit.cost > best[0].cost):
+            break
+        if trials.mends(error.span.source, edit.edits):
+            best.append(edit)
+            place = error
+        yield
+    if place is None or len(best) > _MOST_MEANT:
+        return None
+    return _proposed(place, best, place.help if is_helped else None)
+
+
+def _proposed(error: Diagnostic, repairs: Sequence[TokenEdit], said: str | None) -> Diagnostic:
+    """The message with what may have been meant, below what it has `said` that nobody can try."""
+    anchor = Anchor(error.span.source)
+    words = [_described(error.span.source, each) for each in repairs]
+    help_ = f"perhaps {', or '.join(phrase for phrase, _ in words)}"
+    help_ = help_ if said is None else f"{said}; {help_}"
+    fixes = tuple(
+        Fix(title, tuple(Edit(Span(anchor, begin, end), put) for begin, end, put in each.edits), safe=False)
+        for each, (_, title) in zip(repairs, words, strict=True)
+    )
+    return replace(error, help=help_, fixes=fixes)
+
+
+def _described(source: Source, repair: TokenEdit) -> tuple[str, str]:
+    """A repair in words, and the title of the fix that carries it out."""
+    first = source.locate(min(begin for begin, _, _ in repair.edits))[0]
+    last = source.locate(max(end for _, end, _ in repair.edits))[0]
+    begin, end = source.line_starts[first - 1], source.line_end(last)
+    line = " ".join(repair.applied(source.text[begin:end], begin).split())
+    shown = f"`{line}`" if len(line) <= _WIDEST else "so"
+    if len(repair.edits) > 1:
+        return shown, f"write {shown}"
+    ((begin, end, put),) = repair.edits
+    text = source.text
+    while put[:1] in _SIGNS and text[begin - 1 : begin] in _SIGNS:  # both make one sign
+        begin, put = begin - 1, text[begin - 1] + put
+    while put[-1:] in _SIGNS and text[end : end + 1] in _SIGNS:
+        end, put = end + 1, put + text[end]
+    old, new = text[begin:end].strip(), put.strip()
+    if old and new:
+        return f"`{new}` in place of `{old}`", f"write `{new}`"
+    if new:
+        return f"`{new}` is missing: {shown}", f"add `{new}`"
+    return f"without `{old}`: {shown}", f"remove `{old}`"
+
+
+class _Trials:
+    """Tries what a model would be with edits of one of its texts."""
+
+    def __init__(self, analysis: Analysis) -> None:
+        self._analyser = Analyser(analysis.callables)
+        self._callables = analysis.callables
+        self._loaded = analysis.loaded
+        self._characters = self._statements = 0
+        self._parses = {parse.source: parse for parse in analysis.loaded.parses}
+        self._mistaken = {
+            (each.span.source, self._piece_at(each.span))
+            for each in analysis.loaded.diagnostics
+            if each.severity is Severity.ERROR
+        }
+
+    @property
+    def are_spent(self) -> bool:
+        """Whether no more is tried."""
+        return self._characters > _MOST_CHARACTERS or self._statements > _MOST_STATEMENTS
+
+    @cached_property
+    def _places(self) -> dict[Statement, int]:
+        return {statement: place for place, statement in enumerate(self._loaded.module.statements)}
+
+    @cached_property
+    def _known(self) -> tuple[str, ...]:
+        """All words that mean something in the model."""
+        words = dict.fromkeys((*KINDS, "object", *self._callables.functions, *self._callables.constraints))
+        for parse in self._loaded.parses:
+            for piece in parse.pieces:
+                words.update(
+                    dict.fromkeys(t for t, kind in zip(piece.texts, piece.kinds, strict=True) if kind == "IDENT")
+                )
+        return tuple(words)
+
+    def _piece_at(self, span: Span) -> int:
+        """The number of the piece in which a place of its text lies; below 0 where there is none."""
+        parse = self._parses.get(span.source)
+        return -1 if parse is None else _piece_number(parse, span.begin)
+
+    def edits(self, errors: Sequence[Diagnostic]) -> Iterator[tuple[Diagnostic, TokenEdit]]:
+        """The edits of the lines with errors, cheapest first."""
+        lines: dict[tuple[Source, int], Diagnostic] = {}
+        for error in errors:
+            lines.setdefault((error.span.source, error.span.line), error)
+        found: list[tuple[int, int, Diagnostic, TokenEdit]] = []
+        for number, ((source, line), error) in enumerate(list(lines.items())[:_MOST_LINES]):
+            parse = self._parses.get(source)
+            place = self._piece_at(error.span)
+            if parse is None or place < 0:
+                continue
+            piece = parse.pieces[place]
+            names, owners = neighbours(piece.texts, piece.kinds)
+            first, row = _row(piece, source, line)
+            if not row.kinds:
+                continue
+            grammar = LineGrammar(piece.kinds, first, row)
+            for edit in token_edits(row, (error.span.begin, error.span.finish), self._known, names, owners):
+                if piece.mends or grammar.may_fit(edit):
+                    found.append((edit.cost, number, error, edit))
+        found.sort(key=lambda each: each[:2])
+        for _, _, error, edit in found:
+            yield error, edit
+
+    def mends(self, source: Source, edits: tuple[tuple[int, int, str], ...]) -> bool:
+        """Whether the model would be without errors after these edits of one of its texts."""
+        parse = self._parses.get(source)
+        if parse is None or self.are_spent:
+            return False
+        first = _piece_number(parse, min(begin for begin, _, _ in edits))
+        last = _piece_number(parse, max(end for _, end, _ in edits))
+        if first < 0 or any(one is not source or not first <= at <= last for one, at in self._mistaken):
+            return False
+        pieces = parse.pieces[first : last + 1]
+        begin = pieces[0].anchor.offset
+        end = pieces[-1].anchor.offset + pieces[-1].length
+        text = TokenEdit(0, edits).applied(source.text[begin:end], begin)
+        self._characters += len(text)
+        tried = parse_block(Source(source.name, text), self._loaded.dialect, TOP, len(text))
+        if any(each.severity is Severity.ERROR for each in tried.diagnostics):
+            return False
+        statements = self._with(pieces, tried.module.statements)
+        if statements is None:
+            return False
+        self._statements += len(statements)
+        return self._analyser.is_sound(replace(self._loaded, module=Module(statements), diagnostics=()))
+
+    def _with(self, pieces: Sequence[Piece], statements: Sequence[Statement]) -> tuple[Statement, ...] | None:
+        """The statements of the model with others in place of those of `pieces`; None where that takes a file."""
+        places = [self._places.get(each, -1) for piece in pieces for each in piece.statements]
+        if not places or -1 in places or any(isinstance(each, Include) for each in statements):
+            return None
+        model = self._loaded.module.statements
+        return (*model[: places[0]], *statements, *model[places[-1] + 1 :])
+
+
+def _piece_number(parse: Parse, offset: int) -> int:
+    """The number of the piece that the offset lies in, or ends; below 0 where there is none."""
+    number = -1
+    for at, piece in enumerate(parse.pieces):
+        if piece.anchor.offset > offset or (piece.anchor.offset == offset and at):
+            break
+        number = at
+    return number
+
+
+def _row(piece: Piece, source: Source, line: int) -> tuple[int, Lexemes]:
+    """The lexemes of a piece that stand in a line, and the number of the first."""
+    offset = piece.anchor.offset
+    first = bisect_left(piece.starts, source.line_starts[line - 1] - offset)
+    last = bisect_left(piece.starts, source.line_end(line) - offset)
+    starts = [start + offset for start in piece.starts[first:last]]
+    ends = [end + offset for end in piece.ends[first:last]]
+    return first, Lexemes(source.text, piece.kinds[first:last], piece.texts[first:last], starts, ends)
