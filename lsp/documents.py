@@ -82,6 +82,23 @@ class Documents:
         self.edit(uri, version, edits)
         return self.analyse()
 
+    @property
+    def is_in_repair(self) -> bool:
+        """Whether `repair` has something left to do."""
+        return any(project.is_in_repair for project in self._projects.values())
+
+    def repair(self, trials: int | None = None) -> list[Publication]:
+        """Try so many of the edits that may mend models with errors, or all of them; nothing after an edit."""
+        found = []
+        for project in () if self._edited else self._projects.values():
+            if project.is_in_repair:
+                if project.repair(trials):
+                    self._found[project.key] = self._complaints(project)
+                    found.append(project)
+                if trials is not None:
+                    break
+        return list(self._news([])) if found else []
+
     def save(self, uri: str) -> list[Publication]:
         """A text was saved; other files may have changed as well."""
         del uri
@@ -230,11 +247,14 @@ class Documents:
 
     def trial(self, project: Project, texts: Mapping[str, str], look: Callable[[Snapshot], _T]) -> _T:
         """What `look` sees of a model whose texts read otherwise; afterwards all is as it was."""
+        is_repaired = project.is_repaired
         try:
             self._read(project, texts)
             return look(project.snapshot)
         finally:
             self._read(project)
+            if is_repaired:
+                project.repair()
 
     def _around(self, key: str) -> Iterator[Project]:
         """The projects that a text belongs to; first those whose own text is open."""

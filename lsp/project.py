@@ -1,6 +1,6 @@
 """One model under edit: its texts in, its analysis out, with all that an edit leaves alone kept from before."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -12,6 +12,7 @@ from nddl_lang.lint.configuration import find_configuration, read_configuration
 from nddl_lang.lint.linter import Linter
 from nddl_lang.lint.project_modules import read_callables
 from nddl_lang.lint.settings import Settings as Configuration
+from nddl_lang.repair import repair
 from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import load_module_graph
@@ -82,6 +83,13 @@ class Project:
         self._used: dict[_Place, tuple[Incremental, Parse]] = {}
         self._snapshot: Snapshot | None = None
         self._parts: frozenset[Path] | None = None
+        self._repair: Generator[None, None, Analysis] | None = None
+        self.is_repaired = False
+
+    @property
+    def is_in_repair(self) -> bool:
+        """Whether the smallest edit that would mend the model is still looked for."""
+        return self._repair is not None
 
     @property
     def snapshot(self) -> Snapshot:
@@ -118,6 +126,27 @@ class Project:
         keys = {parse.source: key for key, parse in parses.items()}
         self._snapshot = Snapshot(analysis, found, parses, self._indexer, keys)
         self._analyser, self._linter = analyser, linter
+        self._repair = repair(analysis) if analysis.has_errors else None
+        self.is_repaired = False
+
+    def repair(self, trials: int | None = None) -> bool:
+        """Try some more of the edits that may mend the model, or all; whether that changed what is told.
+
+        The meaning of the snapshot stays that of the text as it is, with all errors.
+        """
+        while self._repair is not None and (trials is None or trials > 0):
+            try:
+                next(self._repair)
+            except StopIteration as end:
+                repaired: Analysis = end.value
+                self._repair = None
+                self.is_repaired = repaired is not self.snapshot.analysis
+                if self.is_repaired:
+                    found = tuple(self._configuration.choose((*self._gaps, *self._linter.lint(repaired))))
+                    self._snapshot = replace(self.snapshot, diagnostics=found)
+                return self.is_repaired
+            trials = None if trials is None else trials - 1
+        return False
 
     def look_again(self) -> None:
         """Files may have changed on the disk, also such as are none of its own."""

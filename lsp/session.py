@@ -35,6 +35,8 @@ from lsp.written_diagnostics import WrittenDiagnostics
 
 _logger = logging.getLogger(__name__)
 _MISTAKES_HELD = (100, 1000, 10_000)  # of each generation of the collector
+_PAUSE = 0.3  # seconds without an edit before repairs are tried
+_TRIALS = 4  # of repairs between two looks at what has arrived
 _OF_ANSWERS = ("result", "error")
 
 
@@ -168,6 +170,7 @@ class Session(LanguageServer):
         self.hints = HintSettings()
         self.token_memory = TokenMemory()
         self._is_due = False
+        self._pause: asyncio.TimerHandle | None = None
         self._mistakes = 0
 
     def report_server_error(self, error: Exception, source: Any) -> None:
@@ -222,8 +225,9 @@ class Session(LanguageServer):
         support = action.resolve_support if action is not None else None
         return support is not None and "edit" in support.properties
 
-    def publish(self, news: Sequence[Publication]) -> None:
-        """Tell the editor what is wrong where, or that it should ask again."""
+    def publish(self, news: Sequence[Publication], *, is_late: bool = False) -> None:
+        """Tell the editor what is wrong where, or that it should ask again; `is_late`: what it may have asked for."""
+        self._repair_later(_PAUSE)
         if not self.is_pulled:
             for each in news:
                 self.text_document_publish_diagnostics(
@@ -231,7 +235,7 @@ class Session(LanguageServer):
                 )
             assert isinstance(self.protocol, _Protocol)
             self.protocol.written.forget(self.documents.shown_uris())
-        elif len(news) > 1 or any(each.version is None for each in news):
+        elif is_late or len(news) > 1 or any(each.version is None for each in news):
             support = self.client_capabilities.workspace
             if support is not None and support.diagnostics is not None and support.diagnostics.refresh_support:
                 self.workspace_diagnostic_refresh(None)
@@ -244,6 +248,24 @@ class Session(LanguageServer):
             due, self._due_missions = self._due_missions, {}
             for mission in due.values():
                 self.judge_mission(mission)
+        except Exception as mistake:
+            self.report_server_error(mistake, None)
+
+    def _repair_later(self, seconds: float) -> None:
+        """Look on for repairs of models with errors, once nothing has been edited for so long."""
+        if self._pause is not None:
+            self._pause.cancel()
+            self._pause = None
+        if self.documents.is_in_repair:
+            self._pause = asyncio.get_running_loop().call_later(seconds, self._repair)
+
+    def _repair(self) -> None:
+        try:
+            news = self.documents.repair(_TRIALS)
+            if news:
+                self.publish(news, is_late=True)
+            elif not self._is_due:
+                self._repair_later(0)
         except Exception as mistake:
             self.report_server_error(mistake, None)
 

@@ -35,6 +35,7 @@ from checker.sought import seal_of
 from checker.stopping import parse_rule
 from checker.story import Story
 from nddl_lang.analysis import analyse_file
+from nddl_lang.repair import repaired
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
@@ -188,7 +189,7 @@ def _check_text(file: Path, dialect: Dialect | None, style: str, name: str, is_t
     callables, gaps = known_callables(settings, is_trusted=is_trusted)
     chosen = dialect or settings.dialect
     analysis = analyse_file(file, chosen, settings.directories, callables, settings.most_lexemes)
-    _tell((*gaps, *analysis.diagnostics), style)
+    _tell((*gaps, *repaired(analysis).diagnostics), style)
     if style == "text" and not analysis.has_errors:
         click.echo(f"the text of `{name}` is in order; missions are flown from a mission file (.toml)")
     return _UNUSABLE if analysis.has_errors else _HOLDS

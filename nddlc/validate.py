@@ -23,6 +23,7 @@ from compiler.lower import compile_model
 from compiler.program import Program
 from nddl_lang.analysis import analyse_file
 from nddl_lang.mission_suffixes import MISSION_SUFFIXES
+from nddl_lang.repair import repaired
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import render
 from nddl_lang.text.values import json_text
@@ -235,7 +236,7 @@ def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> _Jud
         raise DocumentError(f"there is no model `{model}`")
     settings = configured(model)
     analysis = analyse_file(model, settings.dialect, settings.directories, most=settings.most_lexemes)
-    _refuse(analysis.diagnostics)
+    _refuse(repaired(analysis).diagnostics)
     program = compile_model(analysis)
     plan = read_plan(data, _base(program, _PLAN), program)._replace(reactor=_PLAN)
     report, followed = judge_plan(program, plan, is_whole="last_tick" not in data)

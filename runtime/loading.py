@@ -12,6 +12,7 @@ from typing import Any
 from compiler.lower import compile_model
 from compiler.program import Program
 from nddl_lang.analysis import Analysis, analyse, analyse_file, analyse_text
+from nddl_lang.repair import repaired
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import Module
 from nddl_lang.syntax.parser import MOST_LEXEMES
@@ -73,7 +74,7 @@ def load(
         analysis = analyse_file(path, dialect, directories, library.callables, most)
     else:
         analysis = analyse_text(str(path), text, dialect, directories, library.callables, most)
-    found = tuple(analysis.diagnostics)
+    found = repaired(analysis).diagnostics
     if any(each.severity is Severity.ERROR for each in found):
         fault = _fault_above(analysis, library)
         return Loaded(file, found if fault is None else (fault, *found), None, None)

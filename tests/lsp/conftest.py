@@ -232,6 +232,16 @@ class Wire:
         """Send one notification."""
         return self.send(json.dumps({"jsonrpc": "2.0", "method": method, "params": params}).encode())
 
+    def rest(self) -> list[Message]:
+        """What the server says while nothing is edited, until it has looked for all repairs."""
+
+        async def publish() -> None:
+            self.session.publish(self.session.documents.repair(), is_late=True)
+
+        self.said = []
+        self._loop.run_until_complete(publish())
+        return self.said
+
     def ask(self, method: str, **params: Any) -> Message:
         """Send one request; its whole answer."""
         body = json.dumps({"jsonrpc": "2.0", "id": 1, "method": method, "params": params}).encode()

@@ -23,6 +23,7 @@ from tests.syntax.test_keystrokes import joined, moved, pasted, typed
 
 _LIFE = 25  # scripts of one session
 _LENGTHS = (100, 200, 200, 300, 900)  # of pieces of texts, in characters
+_REPAIRED = 20  # of so many scripts one is looked at with its repairs, which take most time
 _BLOCK = 1000  # scripts between two lines that tell how far it is
 _INCLUDE = '#include "part.nddl"\n'
 _WORDS = [
@@ -56,6 +57,10 @@ class Editor:
     def edit(self, file: int, text: str) -> None:
         """The text of a file is another one now."""
         self._tell(self.documents.change(self.uris[file], 1, [(None, text)]))
+
+    def rest(self) -> None:
+        """Nothing is edited until all repairs are looked for."""
+        self._tell(self.documents.repair())
 
     def picture(self) -> list[object]:
         """All that is seen."""
@@ -123,6 +128,8 @@ class Scripts:
             if number in looks:
                 now[file] = step
                 fresh = Editor(self._folder, (now[0], now[1]))
+                for each in (editor, fresh) if seed % _REPAIRED == 0 else ():
+                    each.rest()
                 assert editor.picture() == fresh.picture(), (seed, number, file, now)
         if chance.random() < 0.7 or len(now[file]) > 3 * max(_LENGTHS):
             now[file] = self._begun[file]

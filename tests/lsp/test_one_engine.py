@@ -78,8 +78,11 @@ def served(wire: Any, path: Path, texts: Texts, text: str) -> list[tuple[Any, ..
     wire.start(general={"positionEncodings": ["utf-32"]})
     item = {"uri": path.as_uri(), "languageId": "nddl", "version": 1, "text": text}
     found = []
-    for message in wire.tell("textDocument/didOpen", textDocument=item):
+    published = {}
+    for message in [*wire.tell("textDocument/didOpen", textDocument=item), *wire.rest()]:
         assert message["method"] == "textDocument/publishDiagnostics", message
+        published[message["params"]["uri"]] = message
+    for message in published.values():
         for each in message["params"]["diagnostics"]:
             notes = tuple(
                 (*span(note["location"]["uri"], note["location"]["range"]), note["message"])
