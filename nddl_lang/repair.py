@@ -6,6 +6,7 @@ without errors is its consequence, and is not told. A fix that a message propose
 much is tried is counted in characters and statements, never in time.
 """
 
+import re
 from bisect import bisect_left
 from collections.abc import Generator, Iterator, Sequence
 from dataclasses import replace
@@ -28,6 +29,7 @@ _MOST_STATEMENTS = 40_000  # that are looked at in trials
 _MOST_MEANT = 3  # repairs of one cost that are told side by side
 _DEAREST_BESIDE_HELP = 1899  # what costs more is no better than what the message says itself
 _WIDEST = 80
+_PLAIN = re.compile(r"[\w$.]+")
 _SIGNS = frozenset("=<>!&|:+-*/")
 
 
@@ -111,7 +113,8 @@ def _described(source: Source, repair: TokenEdit) -> tuple[str, str]:
         end, put = end + 1, put + text[end]
     old, new = text[begin:end].strip(), put.strip()
     if old and new:
-        return f"`{new}` in place of `{old}`", f"write `{new}`"
+        is_plain = _PLAIN.fullmatch(old) and _PLAIN.fullmatch(new)
+        return f"`{new}` in place of `{old}`{'' if is_plain else f': {shown}'}", f"write `{new}`"
     if new:
         return f"`{new}` is missing: {shown}", f"add `{new}`"
     return f"without `{old}`: {shown}", f"remove `{old}`"

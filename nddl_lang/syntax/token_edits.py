@@ -273,8 +273,10 @@ def _swaps(line: Lexemes, at: int) -> Iterator[_Priced]:
     if second > first:
         begin, end = line.starts[at], line.ends[first - 1]
         start, finish = line.starts[first], line.ends[second - 1]
-        blank = " " if line.kinds[at] in _SEPARATORS else ""
-        yield _SWAPPED, ((begin, end, blank + line.text[start:finish]), (start, finish, line.text[begin:end]))
+        if line.kinds[at] in _SEPARATORS:
+            yield _SWAPPED, ((begin, finish, f" {line.text[start:finish]}{line.texts[at]}"),)
+        else:
+            yield _SWAPPED, ((begin, end, line.text[start:finish]), (start, finish, line.text[begin:end]))
 
 
 class LineGrammar:

@@ -20,4 +20,5 @@ def _read_all(name: str) -> tuple[Slip, ...]:
 
 
 AT_THE_TELESCOPE = _read_all("slips_at_the_telescope.txt")
+AT_THE_BAKERY = _read_all("slips_at_the_bakery.txt")
 AT_THE_BREWERY = _read_all("slips_at_the_brewery.txt")

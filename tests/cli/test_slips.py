@@ -9,15 +9,16 @@ import pytest
 from nddlc.main import run
 from tests.cli.slip import Slip
 from tests.cli.slips_at_the_harbour import AT_THE_HARBOUR
-from tests.cli.slips_in_texts import AT_THE_BREWERY, AT_THE_TELESCOPE
+from tests.cli.slips_in_texts import AT_THE_BAKERY, AT_THE_BREWERY, AT_THE_TELESCOPE
 from tests.cli.slips_in_the_survey import IN_THE_SURVEY
 
 HARBOUR = Path(__file__).parent / "harbour"
 PROJECTS = {
     **{name: HARBOUR.parent / name for name in ("harbour", "telescope", "depot", "brewery", "quarry")},
+    "bakery": HARBOUR.parents[1] / "checker" / "unseen" / "bakery",
     **{name: HARBOUR.parents[2] / "models" / "templates" / name for name in ("survey", "window", "noise", "deadline")},
 }
-SLIPS = IN_THE_SURVEY + AT_THE_HARBOUR + AT_THE_TELESCOPE + AT_THE_BREWERY
+SLIPS = IN_THE_SURVEY + AT_THE_HARBOUR + AT_THE_TELESCOPE + AT_THE_BREWERY + AT_THE_BAKERY
 Captured = pytest.CaptureFixture[str]
 
 

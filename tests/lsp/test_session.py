@@ -1,5 +1,6 @@
 """A real client and a real server: what comes back over the wire."""
 
+import asyncio
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
@@ -256,8 +257,12 @@ def test_what_was_sent_of_a_text_is_forgotten_when_it_is_closed(tmp_path: Path) 
     sent: list[bytes] = []
     protocol.set_writer(SimpleNamespace(write=sent.append, close=lambda: None))
     uri, _ = model(tmp_path)
-    session.publish(session.documents.open(uri, 1, MODEL))
-    assert b"NDDL201" in sent[-1]
-    assert uri in protocol.written.known
-    session.publish(session.documents.close(uri))
-    assert protocol.written.known == {}
+
+    async def publish() -> None:
+        session.publish(session.documents.open(uri, 1, MODEL))
+        assert b"NDDL201" in sent[-1]
+        assert uri in protocol.written.known
+        session.publish(session.documents.close(uri))
+        assert protocol.written.known == {}
+
+    asyncio.run(publish())
