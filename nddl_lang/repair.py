@@ -17,7 +17,7 @@ from nddl_lang.syntax.nodes import Include, Module, Statement
 from nddl_lang.syntax.parser import Parse, parse_block
 from nddl_lang.syntax.piece import Piece
 from nddl_lang.syntax.placement import TOP
-from nddl_lang.syntax.token_edits import Lexemes, LineGrammar, TokenEdit, neighbours, token_edits
+from nddl_lang.syntax.token_edits import Lexemes, LineGrammar, TokenEdit, token_edits, vocabulary
 from nddl_lang.syntax.words import KINDS
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Severity
 from nddl_lang.text.source import Anchor, Source, Span
@@ -30,6 +30,7 @@ _MOST_MEANT = 3  # repairs of one cost that are told side by side
 _DEAREST_BESIDE_HELP = 1899  # what costs more is no better than what the message says itself
 _WIDEST = 80
 _PLAIN = re.compile(r"[\w$.]+")
+_NAME = re.compile(r"[A-Za-z_$][\w$]*")
 _SIGNS = frozenset("=<>!&|:+-*/")
 
 
@@ -165,6 +166,8 @@ class _Trials:
         lines: dict[tuple[Source, int], Diagnostic] = {}
         for error in errors:
             lines.setdefault((error.span.source, error.span.line), error)
+        unknown = (each.span.text for each in errors if each.code.kind == "name")
+        missing = [name for name in dict.fromkeys(unknown) if _NAME.fullmatch(name)]
         found: list[tuple[int, int, Diagnostic, TokenEdit]] = []
         for number, ((source, line), error) in enumerate(list(lines.items())[:_MOST_LINES]):
             parse = self._parses.get(source)
@@ -172,12 +175,12 @@ class _Trials:
             if parse is None or place < 0:
                 continue
             piece = parse.pieces[place]
-            names, owners = neighbours(piece.texts, piece.kinds)
             first, row = _row(piece, source, line)
             if not row.kinds:
                 continue
             grammar = LineGrammar(piece.kinds, first, row)
-            for edit in token_edits(row, (error.span.begin, error.span.finish), self._known, names, owners):
+            words = vocabulary(self._known, missing, Lexemes("", piece.kinds, piece.texts, piece.starts, piece.ends))
+            for edit in token_edits(row, (error.span.begin, error.span.finish), words):
                 if piece.mends or grammar.may_fit(edit):
                     found.append((edit.cost, number, error, edit))
         found.sort(key=lambda each: each[:2])

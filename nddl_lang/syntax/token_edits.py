@@ -38,7 +38,7 @@ _SHORTEST = 3  # letters of a name that may be misspelt
 _MISSPELT, _QUOTES, _CAPITALS, _BRACKET, _SIGN, _JOINED = 10, 11, 9, 12, 12, 11
 _DOUBLED, _MISSING_SIGN, _SWAPPED, _ENCLOSED, _NEW, _OWNER = 10, 14, 15, 14, 15, 17
 _NO_OWNER, _MISSING_TIMES, _MISSING_OPERATOR, _EXTRA_SIGN, _TYPE, _MEMBER = 16, 18, 18, 16, 20, 19
-_OTHER_NAME, _OTHER_WORD, _EXTRA_WORD, _ARITHMETIC_SIGN = 24, 24, 22, 23
+_OTHER_NAME, _OTHER_WORD, _EXTRA_WORD, _ARITHMETIC_SIGN, _MISSING_NAME = 24, 24, 22, 23, 14
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,17 +94,35 @@ class Lexemes:
         return -1
 
 
-def token_edits(
-    line: Lexemes, focus: tuple[int, int], known: Collection[str], names: Sequence[str], owners: Sequence[str]
-) -> list[TokenEdit]:
-    """The edits of a line, cheapest first; of equal cost those nearest to the `focus` go first, which is a stretch.
+@dataclass(frozen=True, slots=True)
+class Vocabulary:
+    """The names that may have been meant.
 
-    `known` are all names of the model, `names` those that stand near, `owners` those with a dot behind them.
+    `known` are all names of the model, `missing` those that nothing declares, `near` those of the statement, those
+    first that stand last, and `owners` those of it with a dot behind them.
     """
+
+    known: Collection[str]
+    missing: Sequence[str]
+    near: Sequence[str]
+    owners: Sequence[str]
+
+
+def vocabulary(known: Collection[str], missing: Sequence[str], statement: Lexemes) -> Vocabulary:
+    """The names for edits of a statement."""
+    lexemes = list(zip(statement.texts, statement.kinds, strict=True))
+    names = dict.fromkeys(text for text, kind in reversed(lexemes) if kind == "IDENT")
+    pairs = pairwise(lexemes)
+    owners = dict.fromkeys(text for (text, kind), (_, following) in pairs if kind == "IDENT" and following == ".")
+    return Vocabulary(known, missing[:_MOST_NAMES], list(names)[:_MOST_NAMES], list(owners)[:_MOST_NAMES])
+
+
+def token_edits(line: Lexemes, focus: tuple[int, int], words: Vocabulary) -> list[TokenEdit]:
+    """The edits of a line, cheapest first; of equal cost those nearest to the `focus` go first, which is a stretch."""
     edits: dict[tuple[tuple[int, int, str], ...], int] = {}
     for at in range(len(line.kinds)):
         near = _steps(line, at, focus)
-        for cost, changes in _edits_at(line, at, known, names, owners):
+        for cost, changes in _edits_at(line, at, words):
             key = tuple(sorted(changes))
             whole = cost * 100 + near
             if edits.get(key, whole + 1) > whole:
@@ -128,12 +146,10 @@ _Change = tuple[int, int, str]
 _Priced = tuple[int, tuple[_Change, ...]]
 
 
-def _edits_at(
-    line: Lexemes, at: int, known: Collection[str], names: Sequence[str], owners: Sequence[str]
-) -> Iterator[_Priced]:
+def _edits_at(line: Lexemes, at: int, words: Vocabulary) -> Iterator[_Priced]:
     kind, text, start, end = line.kinds[at], line.texts[at], line.starts[at], line.ends[at]
     if kind in _WORDS:
-        yield from _word_edits(line, at, known, names, owners)
+        yield from _word_edits(line, at, words)
     elif kind == "STRING":
         inner = text[1:-1]
         if _NAME.fullmatch(inner) or _NUMBER.fullmatch(inner):
@@ -160,7 +176,7 @@ def _edits_at(
         yield _MISSING_SIGN, ((start, start, sign),)
     is_compared = not set(line.kinds).isdisjoint((*_OPERATORS, *_STRICT))
     if before == "new" and kind == "(":
-        for name in names:
+        for name in words.near:
             yield _NEW, ((gap, start, f" {name}"),)
     if before in _ENDS:
         yield _MISSING_SIGN, ((start, start, "= "),)
@@ -173,30 +189,32 @@ def _edits_at(
                 yield cost - (is_factor and sign == "*"), ((start, start, f"{sign} "),)
 
 
-def _word_edits(
-    line: Lexemes, at: int, known: Collection[str], names: Sequence[str], owners: Sequence[str]
-) -> Iterator[_Priced]:
+def _word_edits(line: Lexemes, at: int, words: Vocabulary) -> Iterator[_Priced]:
     kinds = line.kinds
     kind, text, start, end = kinds[at], line.texts[at], line.starts[at], line.ends[at]
     before = kinds[at - 1] if at else ""
     folded = text.casefold()
-    for name in known:
+    for name in words.known:
         if name != text and name.casefold() == folded:
             yield _CAPITALS, ((start, end, name),)
     if len(text) >= _SHORTEST:
-        left = [name for name in known if name.casefold() != folded]
+        left = [name for name in words.known if name.casefold() != folded]
         for _ in range(2):
             if (meant := nearest(text, left)) is not None:
                 yield _MISSPELT, ((start, end, meant),)
                 left.remove(meant)
+    for name in words.missing:
+        if name != text:
+            yield _JOINED, ((start, end, name),)
+            yield _MISSING_NAME, ((end, end, f" {name}"),)
     if kind == "IDENT":
         yield _QUOTES, ((start, end, f'"{text}"'),)
-        for name in names:
+        for name in words.near:
             if name not in (text, before):
                 yield _OTHER_NAME, ((start, end, name),)
         if before != ".":
             yield _NEW, ((start, start, "new "),)
-            for owner in (*owners, "object"):
+            for owner in (*words.owners, "object"):
                 yield _OWNER, ((start, start, f"{owner}."),)
             for name in BASE_TYPES:
                 yield _TYPE, ((start, start, f"{name} "),)
@@ -208,15 +226,15 @@ def _word_edits(
     if at + 2 < len(kinds) and kinds[at + 2] in _WORDS:
         between = kinds[at + 1]
         for joint in ("_", ""):
-            if between in ("-", ".", "::") and (joined := f"{text}{joint}{line.texts[at + 2]}") in known:
+            if between in ("-", ".", "::") and (joined := f"{text}{joint}{line.texts[at + 2]}") in words.known:
                 yield _JOINED, ((start, line.ends[at + 2], joined),)
     if at + 1 < len(kinds) and kinds[at + 1] in _WORDS:
         for joint in ("_", ""):
-            if (joined := f"{text}{joint}{line.texts[at + 1]}") in known:
+            if (joined := f"{text}{joint}{line.texts[at + 1]}") in words.known:
                 yield _JOINED, ((start, line.ends[at + 1], joined),)
         yield _EXTRA_WORD, ((start, line.starts[at + 1], ""),)
     if kinds[at + 1 : at + 2] != ["."]:
-        for name in names:
+        for name in words.near:
             yield _MEMBER, ((end, end, f".{name}"),)
     if kinds[at + 1 : at + 2] == ["::"] and at + 2 < len(kinds):
         yield _SWAPPED, ((start, line.ends[at + 2], f"{line.texts[at + 2]}::{text}"),)
@@ -317,12 +335,3 @@ def _kinds_of(text: str) -> list[str]:
         elif not match[0].startswith("//"):
             kinds.append(match[0])
     return ["IDENT" if kind == "FORMER" else kind for kind in kinds]
-
-
-def neighbours(texts: Sequence[str], kinds: Sequence[str]) -> tuple[list[str], list[str]]:
-    """The names that stand in a statement, those first that are last, and those with a dot behind them."""
-    names = [text for text, kind in zip(texts, kinds, strict=True) if kind == "IDENT"]
-    near = list(dict.fromkeys(reversed(names)))[:_MOST_NAMES]
-    pairs = pairwise(zip(texts, kinds, strict=True))
-    owners = list(dict.fromkeys(text for (text, kind), (_, following) in pairs if kind == "IDENT" and following == "."))
-    return near, owners[:_MOST_NAMES]
