@@ -26,6 +26,8 @@ _MOST_ERRORS = 12  # of a model that was meant to be another one by one small ed
 _MOST_LINES = 3  # that are searched
 _MOST_CHARACTERS = 200_000  # that are parsed in trials
 _MOST_STATEMENTS = 40_000  # that are looked at in trials
+_MOST_WORDS = 20_000  # among which a misspelt one is looked for
+_FARTHEST = 20  # lexemes from the error
 _MOST_MEANT = 3  # repairs of one cost that are told side by side
 _DEAREST_BESIDE_HELP = 1899  # what costs more is no better than what the message says itself
 _WIDEST = 80
@@ -151,9 +153,10 @@ class _Trials:
         words = dict.fromkeys((*KINDS, "object", *self._callables.functions, *self._callables.constraints))
         for parse in self._loaded.parses:
             for piece in parse.pieces:
-                words.update(
-                    dict.fromkeys(t for t, kind in zip(piece.texts, piece.kinds, strict=True) if kind == "IDENT")
-                )
+                pairs = zip(piece.texts, piece.kinds, strict=True)
+                words.update(dict.fromkeys(text for text, kind in pairs if kind == "IDENT"))
+            if len(words) > _MOST_WORDS:
+                return ()
         return tuple(words)
 
     def _piece_at(self, span: Span) -> int:
@@ -175,7 +178,7 @@ class _Trials:
             if parse is None or place < 0:
                 continue
             piece = parse.pieces[place]
-            first, row = _row(piece, source, line)
+            first, row = _row(piece, source, line, error.span)
             if not row.kinds:
                 continue
             grammar = LineGrammar(piece.kinds, first, row)
@@ -190,7 +193,7 @@ class _Trials:
     def mends(self, source: Source, edits: tuple[tuple[int, int, str], ...]) -> bool:
         """Whether the model would be without errors after these edits of one of its texts."""
         parse = self._parses.get(source)
-        if parse is None or self.are_spent:
+        if parse is None:
             return False
         first = _piece_number(parse, min(begin for begin, _, _ in edits))
         last = _piece_number(parse, max(end for _, end, _ in edits))
@@ -199,8 +202,10 @@ class _Trials:
         pieces = parse.pieces[first : last + 1]
         begin = pieces[0].anchor.offset
         end = pieces[-1].anchor.offset + pieces[-1].length
+        self._characters += end - begin
+        if self.are_spent:
+            return False
         text = TokenEdit(0, edits).applied(source.text[begin:end], begin)
-        self._characters += len(text)
         tried = parse_block(Source(source.name, text), self._loaded.dialect, TOP, len(text))
         if any(each.severity is Severity.ERROR for each in tried.diagnostics):
             return False
@@ -229,11 +234,13 @@ def _piece_number(parse: Parse, offset: int) -> int:
     return number
 
 
-def _row(piece: Piece, source: Source, line: int) -> tuple[int, Lexemes]:
-    """The lexemes of a piece that stand in a line, and the number of the first."""
+def _row(piece: Piece, source: Source, line: int, focus: Span) -> tuple[int, Lexemes]:
+    """The lexemes of a piece that stand in a line, not too far from the focus, and the number of the first."""
     offset = piece.anchor.offset
     first = bisect_left(piece.starts, source.line_starts[line - 1] - offset)
     last = bisect_left(piece.starts, source.line_end(line) - offset)
+    first = max(first, bisect_left(piece.starts, focus.begin - offset) - _FARTHEST)
+    last = min(last, bisect_left(piece.starts, focus.finish - offset) + _FARTHEST, first + 3 * _FARTHEST)
     starts = [start + offset for start in piece.starts[first:last]]
     ends = [end + offset for end in piece.ends[first:last]]
     return first, Lexemes(source.text, piece.kinds[first:last], piece.texts[first:last], starts, ends)
