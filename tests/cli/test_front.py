@@ -27,7 +27,8 @@ def test_lint_reads_a_mission_file_as_one(tmp_path: Path, capsys: Captured) -> N
     assert run(["lint", str(mission)]) == 1
     told = capsys.readouterr().out
     assert "NDDL702" in told and "NDDL1" not in told
-    assert run(["lint", "--fix", str(mission)]) == 1
+    assert run(["lint", "--fix", str(mission)]) == 0
+    assert mission.read_text(encoding="utf-8") == text
 
 
 def test_lint_reads_a_configuration_as_one(tmp_path: Path, capsys: Captured) -> None:
