@@ -57,7 +57,7 @@ class Judgement:
     """A verdict; `code` names the class of failure and `reason` says why it failed, both empty for a PASS.
 
     `message` is what the code said that failed in an ERROR; `exceeded` the limit of [check] that was not kept,
-    `broken` the property.
+    `broken` the property, the first of the mission file; `also` are further ones that were violated.
     """
 
     verdict: Verdict
@@ -66,6 +66,7 @@ class Judgement:
     message: str = ""
     exceeded: Exceeded | None = None
     broken: PropertyFate | None = None
+    also: tuple[PropertyFate, ...] = ()
 
 
 def judge(outcome: Outcome) -> Judgement:
@@ -80,9 +81,9 @@ def judge(outcome: Outcome) -> Judgement:
         return Judgement(Verdict.FAIL, _NO_RECORD, reason)
     if outcome.open_goals:
         return Judgement(Verdict.FAIL, _GOALS_OPEN, Reason(ReasonKind.GOALS_OPEN))
-    broken = next((one for one in outcome.properties if not one.is_kept), None)
-    if broken is not None:
-        return Judgement(Verdict.FAIL, PROPERTY, broken=broken)
+    broken = [one for one in outcome.properties if not one.is_kept]
+    if broken:
+        return Judgement(Verdict.FAIL, PROPERTY, broken=broken[0], also=tuple(broken[1:]))
     if outcome.breaches:
         return Judgement(Verdict.FAIL, _BROKEN, outcome.breaches[0])
     return Judgement(Verdict.PASS)

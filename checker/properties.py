@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 from checker.judge.report import ResourceProfile
+from checker.levels import level_fate
 from checker.sampling.rendering import number
 from compiler.program import TOKEN_TIMES
 from runtime.executive.columns import TokenColumns
 from runtime.executive.configuration import (
     AgentConfiguration,
-    LevelPattern,
     PropertyConfiguration,
     PropertyKind,
     TokenPattern,
@@ -25,7 +25,6 @@ from runtime.executive.expression import ExpressionError, parse_expression
 from runtime.executive.outcome import Event, EventKind, PropertyFate
 from runtime.executive.record import MissionRecord, OpenValues, ReactorRecord, TokenRecord, ValueRange
 
-_ROUNDING = 1e-9
 _MOST_SHOWN = 4  # values of an argument
 _ORDERS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 
@@ -61,45 +60,17 @@ def property_fates(
 
     def history(timeline: str) -> list[_Held]:
         if timeline not in histories:
-            found = _history(agent, timeline, arguments, record, last_tick)
+            found = _history(agent, timeline, arguments, record, last_tick, events)
             histories[timeline] = _published(timeline, events, last_tick) if found is None else found
         return histories[timeline]
 
     def fate(one: PropertyConfiguration) -> PropertyFate:
         if one.level is not None:
-            return _level_fate(one, one.level, profiles, agent.final_tick if one.by is None else one.by)
+            return level_fate(one, one.level, profiles, record, agent.final_tick if one.by is None else one.by)
         then = history(one.then.timeline) if one.then else []
         return _fate(one, history(one.pattern.timeline), then, agent, last_tick, is_cut)
 
     return tuple(fate(one) for one in agent.properties)
-
-
-def _level_fate(
-    one: PropertyConfiguration, wanted: LevelPattern, profiles: Sequence[ResourceProfile], last: int
-) -> PropertyFate:
-    """Whether a resource kept its levels; where its limits were never fixed nothing is known, and nothing kept."""
-    own = (each for each in profiles if each.resource == wanted.resource and wanted.reactor in ("", each.reactor))
-    profile = next(own, None)
-    if profile is None:
-        return PropertyFate(one.name, False, one.since, -math.inf)
-    lower, upper = wanted.bounds
-    if wanted.margin > 0.0:
-        lower, upper = max(lower, profile.least + wanted.margin), min(upper, profile.most - wanted.margin)
-    ends = [*(tick for tick, _ in profile.levels[1:]), math.inf]
-    held = [(begin, end, level) for (begin, level), end in zip(profile.levels, ends, strict=True)]
-    margins = [
-        (max(begin, one.since), _level_margin(level, lower, upper))
-        for begin, end, level in held
-        if begin <= last and end > one.since
-    ]
-    worst = next((tick for tick, margin in margins if margin < 0.0), None)
-    return PropertyFate(one.name, worst is None, worst, min((margin for _, margin in margins), default=math.inf))
-
-
-def _level_margin(level: float, lower: float, upper: float) -> float:
-    """How far a level is within its bounds; levels are sums of floats, so what is off by rounding counts as kept."""
-    margin = min(level - lower, upper - level)
-    return 0.0 if -_ROUNDING * max(1.0, abs(level)) <= margin < 0.0 else margin
 
 
 def _history(
@@ -108,6 +79,7 @@ def _history(
     arguments: Mapping[str, Sequence[str]],
     record: MissionRecord,
     last_tick: int,
+    events: Sequence[Event],
 ) -> list[_Held] | None:
     """What was executed on a timeline, in order; as its owner recorded it, else as one who observed it did."""
     owners = [one.name for one in agent.reactors if timeline in one.internal]
@@ -115,19 +87,40 @@ def _history(
     reactor = next((one for name in (*owners, *users) for one in record.reactors if one.reactor == name), None)
     if reactor is None:
         return None
-    found = []
-    for token in _tokens_on(reactor, timeline):
-        if token.state != "active" or token.fate == "cut" or not isinstance(token.start, int | float):
-            continue
-        start = int(token.start)
-        if start > last_tick:
-            continue
-        end = float(token.end) if isinstance(token.end, int | float) else math.inf
-        given = dict(zip(arguments.get(token.predicate, ()), token.arguments, strict=False))
-        given |= {"start": start, "end": end, "duration": end - start}
-        least = max(last_tick + 1.0, token.end.lower if isinstance(token.end, ValueRange) else end)
-        found.append(_Held(token.predicate.rpartition(".")[2], start, end, given, least if end == math.inf else end))
+    begun = [
+        token
+        for token in _tokens_on(reactor, timeline)
+        if token.state == "active" and isinstance(token.start, int | float) and token.start <= last_tick
+    ]
+    found = [_held(token, arguments, last_tick) for token in begun if token.fate != "cut"]
+    cut = {_head(token): token for token in begun if token.fate == "cut"}
+    if cut:  # a repair forgets what is past: what has happened is what was published
+        known = {(one.start, one.predicate) for one in found}
+        for one in _published(timeline, events, last_tick):
+            if (one.start, one.predicate) not in known:
+                token = cut.get((one.start, one.predicate))
+                said = dict(one.arguments) | (_decided(token, arguments) if token is not None else {})
+                found.append(replace(one, arguments=said))
     return sorted(found, key=lambda one: (one.start, one.end))
+
+
+def _held(token: TokenRecord, arguments: Mapping[str, Sequence[str]], last_tick: int) -> _Held:
+    """What a token of the plan held when the mission ended."""
+    start, predicate = _head(token)
+    end = float(token.end) if isinstance(token.end, int | float) else math.inf
+    given = _decided(token, arguments) | {"start": start, "end": end, "duration": end - start}
+    least = max(last_tick + 1.0, token.end.lower if isinstance(token.end, ValueRange) else end)
+    return _Held(predicate, start, end, given, least if end == math.inf else end)
+
+
+def _head(token: TokenRecord) -> tuple[int, str]:
+    assert isinstance(token.start, int | float)
+    return int(token.start), token.predicate.rpartition(".")[2]
+
+
+def _decided(token: TokenRecord, arguments: Mapping[str, Sequence[str]]) -> dict[str, object]:
+    """The arguments of a token by name."""
+    return dict(zip(arguments.get(token.predicate, ()), token.arguments, strict=False))
 
 
 def _published(timeline: str, events: Sequence[Event], last_tick: int) -> list[_Held]:
@@ -135,7 +128,7 @@ def _published(timeline: str, events: Sequence[Event], last_tick: int) -> list[_
     seen = [each for each in events if each.kind is EventKind.OBSERVATION and each.timeline == timeline]
     ends = [*(float(each.tick) for each in seen[1:]), math.inf]
     held = []
-    for each, end in zip(seen, ends, strict=True):
+    for each, end in zip(seen, ends[: len(seen)], strict=True):
         if end > each.tick:
             given = _given(each) | {"start": each.tick, "end": end, "duration": end - each.tick}
             held.append(_Held(each.predicate, each.tick, end, given, min(end, last_tick + 1.0)))

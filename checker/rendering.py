@@ -32,6 +32,7 @@ from runtime.executive.outcome import (
     ElementKind,
     Event,
     EventKind,
+    LevelChange,
     OpenGoal,
     ReasonKind,
     SourcePlace,
@@ -85,7 +86,9 @@ def failure_text(judgement: Judgement, open_goals: Sequence[OpenGoal] = (), refu
     """
     if judgement.broken is not None:
         seen = f": {judgement.broken.seen}" if judgement.broken.seen else ""
-        return f"the property `{judgement.broken.name}` is violated at tick {judgement.broken.tick}{seen}"
+        also = ", ".join(f"`{one.name}` at tick {one.tick}" for one in judgement.also)
+        text = f"the property `{judgement.broken.name}` is violated at tick {judgement.broken.tick}{seen}"
+        return f"{text}; so is {also}" if also else text
     if judgement.exceeded is not None:
         return _exceeded_text(judgement.exceeded)
     if judgement.reason is None:
@@ -151,10 +154,20 @@ def step_text(step: Step, story: Story) -> str:
             return f"{deadlock_text(deadlock)}; {f'tried in vain: {tried}' if tried else 'there is nothing to choose'}"
         case Waiting() as waiting:
             return waiting_text(waiting)
+        case LevelChange() as change:
+            return _change_text(change)
         case Abort() | None as abort:
             return _end_text(abort, story)
         case _:
             assert_never(step.subject)
+
+
+def _change_text(change: LevelChange) -> str:
+    """What happens to the level of a resource, and for whom."""
+    what = f"{'takes' if change.amount < 0 else 'gives'} {number(abs(change.amount))}"
+    who = " and ".join(dict.fromkeys(asker for asker, _ in change.askers)) or "something"
+    side = "of" if change.amount < 0 else "to"
+    return f"{who} {what} {side} {change.resource}: its level is {number(change.level)}"
 
 
 def step_label(step: Step, causes: Sequence[SourcePlace]) -> str:

@@ -29,10 +29,11 @@ from compiler.program import (
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.events import single_events
-from runtime.executive.outcome import ConflictElement, ElementKind, Event, EventKind, SourcePlace
+from runtime.executive.outcome import ConflictElement, ElementKind, Event, EventKind, LevelChange, SourcePlace
 from runtime.plan.readout.names import TokenName, VariableName
 
 _EQUAL = "eq"
+_QUANTITY = "quantity"  # of what is taken from a resource or given to it
 _TELLING = (EventKind.OBSERVATION, EventKind.REQUEST)
 _Wanted = tuple[tuple[str, str], float | str | None]  # predicate and parameter, and its value if that is known
 _MOST = 6  # lines that are told of one argument
@@ -145,6 +146,21 @@ def left_open(
             place = line_of(spans[0]) if len(spans) == 1 else None
             place = place and replace(place, file=relative_name(place.file, root))
             yield PlannerChoice(asked[-1].reactor, f"{wanted}.{name}", place, is_open=True)
+
+
+def lines_of_amount(change: LevelChange, programs: Mapping[str, Program], root: Path) -> tuple[SourcePlace, ...]:
+    """The lines of a rule by which the level of a resource changes: those that say by how much, then the others."""
+    program = programs.get(change.reactor)
+    if program is None:
+        return ()
+    numbers, amount = dict(numbers_of(program)), abs(change.amount)
+    found: list[SourcePlace] = []
+    for asker, event in change.askers:
+        for rule in (one for one in program.rules if one.predicate == asker):
+            lines = _asking(program, rule, (event, _QUANTITY), numbers, amount, None).lines
+            steps = (one for one in all_instructions(rule.body) if isinstance(one, Child))
+            found += [*(one.place for one in lines), *(line_of(one.span) for one in steps if one.predicate == event)]
+    return tuple(replace(one, file=relative_name(one.file, root)) for one in dict.fromkeys(found))
 
 
 def _unsaid(program: Program, predicate: str, name: str) -> Iterator[Span]:

@@ -9,7 +9,7 @@ from checker.requested import PlannerChoice
 from checker.standing import Standing
 from checker.waiting import Waiting
 from runtime.executive.configuration import ParameterConfiguration
-from runtime.executive.outcome import Abort, ConflictElement, Deadlock, Draw, Event, SourcePlace
+from runtime.executive.outcome import Abort, ConflictElement, Deadlock, Draw, Event, LevelChange, SourcePlace
 from runtime.plan.readout.names import VariableName
 from runtime.plan.readout.statements import Term
 
@@ -26,6 +26,7 @@ class StepKind(StrEnum):
     FAULT = "fault"  # the culprit
     BROKEN = "broken"  # the culprit of what broke a plan that was repaired
     TRIED = "tried"  # what the search tried in vain
+    LEVEL = "level"  # a change of the level of a resource
     WAITING = "waiting"  # what an open goal waited for
     ABORT = "abort"
 
@@ -35,9 +36,10 @@ class Step:
     """One link of the chain: when (None: always), what, and where that is written.
 
     `subject` is a draw with how it is drawn, the rule of a line, an event, an element of the conflict, a line that asks
-    for one, what was tried or waited for, or the abort (None: the mission went to its end). `limits` are the lines that
-    set what the faulty one compares with, `under` the conditions under which the line of an element stands,
-    `made` where the object is made that it speaks of. `alike` further elements say the same of other tokens.
+    for one, what was tried or waited for, the change of a level, or the abort (None: the mission went to its end).
+    `limits` are the lines that set what the faulty one compares with, `under` the conditions under which the line of
+    an element stands, `made` where the object is made that it speaks of. `alike` further elements say the same of
+    other tokens.
     """
 
     kind: StepKind
@@ -51,6 +53,7 @@ class Step:
         | ConflictElement
         | Deadlock
         | Waiting
+        | LevelChange
         | Abort
         | None
     )
@@ -77,7 +80,7 @@ def without_repeats(steps: Iterable[Step]) -> list[Step]:
             kept.append(step)
         elif key == guilty:
             continue
-        elif key not in told or step.kind is StepKind.DRAW:
+        elif key not in told or step.kind in (StepKind.DRAW, StepKind.LEVEL):
             told.setdefault(key, len(kept))
             kept.append(step)
         elif step.place is None:

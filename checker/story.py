@@ -20,7 +20,7 @@ from checker.influence import Branch, Influence, InfluenceLine
 from checker.oracle import Judgement, given_up
 from checker.proofs.conflict import Confirmation, confirm, needed_elements
 from checker.proofs.places import ModelText
-from checker.requested import PlannerChoice, left_open, lines_that_ask, who_chose
+from checker.requested import PlannerChoice, left_open, lines_of_amount, lines_that_ask, who_chose
 from checker.standing import Standing, StandingLines
 from checker.steps import Step, StepKind, without_repeats
 from checker.told_events import failed_owner, lost_events, promised_events, sent_requests
@@ -34,6 +34,7 @@ from runtime.executive.outcome import (
     ElementKind,
     Event,
     EventKind,
+    LevelChange,
     OpenGoal,
     Outcome,
     ReasonKind,
@@ -41,6 +42,7 @@ from runtime.executive.outcome import (
 )
 
 _MOST_LINES = 8  # that rule out what was tried
+_MOST_CHANGES = 6  # of a level
 _MOST_ENDS = 3  # flaws against which there was nothing to choose
 
 
@@ -88,7 +90,9 @@ def tell(
     broken = None if fails_by_repairs(result) else first
     conflicts = [one for one in (conflict, broken.conflict if broken is not None else None) if one is not None]
     confirmation = _confirmed(result, conflict, fault, text)
-    parameters = tuple(dict.fromkeys((*suspects(outcome, fault, first), *decisive)))
+    levels = _levels(result, text)
+    drawn = _drawn_at(influence, (place for _, places in levels for place in places))
+    parameters = tuple(dict.fromkeys((*suspects(outcome, fault, first), *decisive, *drawn)))
     until = _decided_at(result, outcome)
     acting = _acting(influence, outcome, until, taken, conflicts)
     draws = _draws(outcome, agent, acting, parameters, until, conflicts)
@@ -110,7 +114,7 @@ def tell(
     dead = failed_owner(result.judgement, outcome)
     way = sorted([*way, *dead, *promised_events(result, outcome, agent)], key=lambda event: event.tick)
     steps = [
-        *_in_time([*redrawn, *draws], _events(way, broken, outcome, text, taken)),
+        *_in_time([*redrawn, *draws], _with_levels(_events(way, broken, outcome, text, taken), levels)),
         *_with_askers(_conflict(conflict, confirmation), outcome, text, taken),
         *_tried(failed),
         *(Step(StepKind.WAITING, None, one) for one in waited_for(outcome, agent)),
@@ -314,6 +318,33 @@ def _with_askers(
             if chosen is not None and not lines_that_ask(*asking):
                 yield Step(StepKind.CHOSEN, None, chosen, chosen.place)
         yield step
+
+
+def _with_levels(
+    events: Iterable[Step], levels: Sequence[tuple[LevelChange, tuple[SourcePlace, ...]]]
+) -> Iterator[Step]:
+    """The steps, with each change of a level behind what came until its tick."""
+    left = [Step(StepKind.LEVEL, one.tick, one, next(iter(places), None)) for one, places in levels]
+    for event in events:
+        while left and event.tick is not None and (left[0].tick or 0) < event.tick:
+            yield left.pop(0)
+        yield event
+    yield from left
+
+
+def _levels(result: MissionResult, text: ModelText | None) -> list[tuple[LevelChange, tuple[SourcePlace, ...]]]:
+    """The last changes that led to the violated level of a property, each with the lines that say how much it is."""
+    changes = result.judgement.broken.changes if result.judgement.broken is not None else ()
+    led = [one for one in changes if (one.amount < 0) == (changes[-1].amount < 0)][-_MOST_CHANGES:]
+    return [(one, lines_of_amount(one, text.programs, text.root) if text is not None else ()) for one in led]
+
+
+def _drawn_at(influence: Influence, places: Iterable[SourcePlace]) -> tuple[str, ...]:
+    """The parameters that act through a line that stands at one of the places."""
+    known = {(one.file, one.line) for one in places}
+    return tuple(
+        name for name, lines in influence.items() if any((one.place.file, one.place.line) in known for one in lines)
+    )
 
 
 def _with_open(steps: Sequence[Step], outcome: Outcome, text: ModelText | None) -> Iterator[Step]:

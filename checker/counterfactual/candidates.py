@@ -155,6 +155,10 @@ def candidates_of(
         for number in graph.of_resource(predicate):
             if number not in roots or roots[number][0] > _LEVEL:
                 roots[number] = (_LEVEL, Suspicion.CONFLICT)
+    for resource in _levels(outcome, properties):
+        for number in graph.of_level(resource):
+            if number not in roots or roots[number][0] > _LEVEL:
+                roots[number] = (_LEVEL, Suspicion.TRACE)
     held = {predicate for *_, predicate in heads_of(outcome.events)}
     predicates = _ended_by(outcome, held) | _violated(outcome, properties)
     if not roots and not predicates:
@@ -344,6 +348,13 @@ def _predicates(outcome: Outcome) -> set[str]:
 def _violated(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> set[str]:
     """The predicates that the first violated property is about; of a timeline alone, what it held last."""
     return {predicate for predicate, _ in _broken(outcome, properties)}
+
+
+def _levels(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> list[str]:
+    """The resource whose level the first violated property is about, if it is about one."""
+    broken = next((one.name for one in outcome.properties if not one.is_kept), "")
+    is_judged = given_up(outcome) is None
+    return [each.level.resource for each in properties if is_judged and each.name == broken and each.level is not None]
 
 
 def _arguments(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> set[tuple[str, str]]:

@@ -72,7 +72,7 @@ def voided_of(result: MissionResult, failed: MissionResult) -> float:
 
 
 def is_farther(result: MissionResult, failed: MissionResult) -> bool:
-    """Whether a mission that fails as well does so later in another way, or achieves more.
+    """Whether a mission that fails as well does so later in another way, achieves more, or violates a property by less.
 
     One that gives up more goals lasts longer as it does less.
     """
@@ -84,7 +84,22 @@ def is_farther(result: MissionResult, failed: MissionResult) -> bool:
     )
     is_other = result.judgement.code != failed.judgement.code
     is_later = result.outcome.last_tick > failed.outcome.last_tick and given_up <= others
-    return achieved > before or (achieved == before and is_other and is_later)
+    return achieved > before or (achieved == before and is_other and is_later) or _gained(result, failed) > 0.0
+
+
+def is_worse(result: MissionResult, failed: MissionResult) -> bool:
+    """Whether a mission violates the property that the failed one did by more than that did."""
+    return _gained(result, failed) < 0.0
+
+
+def _gained(result: MissionResult, failed: MissionResult) -> float:
+    """By how much less a mission violates the property that the failed one did; 0 where no number tells."""
+    broken = failed.judgement.broken
+    if broken is None or result.outcome is None:
+        return 0.0
+    margin = next((one.margin for one in result.outcome.properties if one.name == broken.name), math.nan)
+    gained = margin - broken.margin
+    return gained if math.isfinite(gained) else 0.0
 
 
 def strayed_of(result: MissionResult, failed: MissionResult) -> float:

@@ -64,7 +64,10 @@ class RankedLine:
 
 @dataclass(frozen=True, slots=True)
 class Causes:
-    """Why missions of one fault fail, the likeliest cause first; `tried` lines were tried in so many flights."""
+    """Why missions of one fault fail, the likeliest cause first; `tried` lines were tried in so many flights.
+
+    Properties that were left `aside` are violated as well, and may be so with each change.
+    """
 
     ranked: tuple[RankedLine, ...] = ()
     tried: int = 0
@@ -72,6 +75,7 @@ class Causes:
     ended: TrialsEnd = TrialsEnd.COMPLETE
     flown: int = 0  # the number of the failed mission
     remarks: tuple[Remark, ...] = ()  # what lint says of the models
+    aside: tuple[str, ...] = ()
 
     @property
     def is_sought(self) -> bool:

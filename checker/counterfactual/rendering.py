@@ -94,6 +94,8 @@ def effort_text(causes: Causes, mission: str = "the same mission") -> str:
     """How much was tried, and whether that is all."""
     lines = f"{causes.tried} line{'' if causes.tried == 1 else 's'}"
     text = f"{lines} tried in {causes.flights} flight{'' if causes.flights == 1 else 's'} of {mission}"
+    if causes.aside:
+        text += f", as to this property and not to {', '.join(f'`{name}`' for name in causes.aside)}"
     match causes.ended:
         case TrialsEnd.COMPLETE:
             return text

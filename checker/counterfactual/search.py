@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -72,19 +72,28 @@ class CauseSearch:
     def causes(self, missions: Missions) -> Causes:
         """The causes of one fault."""
         bounds = replace(self._bounds, seconds=min(self._bounds.seconds, max(self._left, 0.0)))
-        trials = find_causes(missions, self._world, bounds)
+        aside = tuple(one.name for one in missions.failed[0].judgement.also)
+        trials = find_causes(missions, _without(self._world, aside), bounds)
         root = Path(self._world.agent.root)
         found = rank(trials, root, _raised_in(missions.failed[0]))
-        return replace(found, flown=missions.failed[0].number, remarks=remarks_of(self._world.findings, root))
+        remarks = remarks_of(self._world.findings, root)
+        return replace(found, flown=missions.failed[0].number, remarks=remarks, aside=aside)
 
     def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
         """Whether the change of a cause makes another failed mission pass, with all goals; False where time is over."""
         left = min(self._left, self._bounds.seconds)
         if cause.change is None or cause.claim is Claim.EVADES or left <= 0.0 or self._bounds.flights == 0:
             return False
-        result = _fly(self._world, cause.change, failed, left)
+        aside = tuple(one.name for one in failed.judgement.also)
+        result = _fly(_without(self._world, aside), cause.change, failed, left)
         damage = _as_flown(Missions([failed]), self._world.agent).damage_of(result, failed)
         return result.verdict is Verdict.PASS and damage + voided_of(result, failed) < HEAVY
+
+
+def _without(world: Suspended, aside: Collection[str]) -> Suspended:
+    """The same, where missions are not judged by some properties: each violated one has a cause of its own."""
+    kept = tuple(one for one in world.agent.properties if one.name not in aside)
+    return replace(world, agent=replace(world.agent, properties=kept))
 
 
 def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]:

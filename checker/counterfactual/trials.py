@@ -13,11 +13,19 @@ from checker.batch.interruption import InterruptedSearch
 from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.counterfactual.candidates import Candidate, Suspicion
-from checker.counterfactual.damage import HEAVY, collapsed_of, course_of, is_farther, strayed_of, voided_of
+from checker.counterfactual.damage import (
+    HEAVY,
+    collapsed_of,
+    course_of,
+    is_farther,
+    is_worse,
+    strayed_of,
+    voided_of,
+)
 from checker.counterfactual.effort import Bounds, Stopwatch
 from checker.counterfactual.follow_ups import alternatives, follow_ups
 from checker.counterfactual.missions import Missions
-from checker.counterfactual.numbers import between, is_doubling
+from checker.counterfactual.numbers import NUMERIC, between, is_doubling
 from checker.counterfactual.orders import is_order_turned
 from checker.counterfactual.smallness import cost_of, delay_of, first_edits, is_probe
 from checker.counterfactual.turns import Turns
@@ -202,6 +210,8 @@ def try_out(
                 turns.doubt(site, None if is_probe(edit, site) else edit.begin)
             if result.verdict is Verdict.FAIL and is_farther(result, failed[0]):
                 turns.encourage(site)
+            if edit.kind in NUMERIC and is_worse(result, failed[0]):
+                turns.turn_round(site, edit)
             turns.tire(site)
             if result.verdict is Verdict.FAIL and course_of(result) != course:
                 for step, other in enumerate(between(edit, site), 1):

@@ -11,6 +11,7 @@ from collections.abc import Callable, Collection
 from itertools import count
 
 from checker.counterfactual.candidates import Candidate
+from checker.counterfactual.numbers import NUMERIC, is_raised
 from checker.counterfactual.word_odds import is_comparison_turned
 from checker.mutation.edits import EditSite, SmallEdit, inverse_of
 from checker.mutation.kinds import EditKind
@@ -60,6 +61,15 @@ class Turns:
         self._hasten({site} - self._encouraged)
         self._encouraged.add(site)
 
+    def turn_round(self, site: EditSite, worse: SmallEdit) -> None:
+        """Try a number the other way sooner of which a change one way has made it worse, and further that way later."""
+
+        def is_same(candidate: Candidate, edit: SmallEdit) -> bool:
+            return candidate.site is site and edit.begin == worse.begin and edit.kind in NUMERIC
+
+        self._move(self._sooner, lambda one, edit: is_same(one, edit) and is_raised(edit) != is_raised(worse))
+        self._delay(_IDLE, lambda one, edit: is_same(one, edit) and is_raised(edit) == is_raised(worse))
+
     def doubt(self, site: EditSite, place: int | None) -> None:
         """Try what else may stand at a place of a line later; at any of its places where none is given.
 
@@ -89,7 +99,11 @@ class Turns:
         self._delay(_ENDLESS, lambda _, edit: edit.kind is lost.kind and edit.new == lost.new)
 
     def _hasten(self, sites: Collection[EditSite]) -> None:
-        self._move(lambda at: at * _BESIDE if at > 0.0 else at, lambda candidate, _: candidate.site in sites)
+        self._move(self._sooner, lambda candidate, _: candidate.site in sites)
+
+    @staticmethod
+    def _sooner(at: float) -> float:
+        return at * _BESIDE if at > 0.0 else at
 
     def _delay(self, wait: float, concerns: Callable[[Candidate, SmallEdit], bool]) -> None:
         self._move(lambda at: at + wait, concerns)

@@ -11,8 +11,9 @@ from checker.judge.meanings import Meaning, equal, is_true
 from checker.judge.operands import BodyFrame, Read, VariableNames, domain_value, is_range, reader
 from checker.judge.relating import CUT_OFF, LEFT_OPEN, Step, child_step, relate_step
 from checker.judge.solving import solver
-from checker.judge.values import UNKNOWN, is_open, lies_within, may_be_equal
+from checker.judge.values import UNKNOWN, ends_of, is_open, lies_within, may_be_equal
 from compiler.program import (
+    END,
     START,
     Assign,
     DomainConstant,
@@ -314,7 +315,9 @@ def _guard(guard: Guard, then: list[Step], otherwise: list[Step], names: Variabl
         value = condition(frame)
         truth = True if isinstance(value, str) else is_true(value)
         if reached.branch == "waiting":
-            if truth is None or not reached.is_decided:
+            # What a token before the mission would ask for is left open.
+            is_before = frame.tok is not None and ends_of(frame.tok.values[END])[1] <= 0
+            if truth is None or is_before or not reached.is_decided:
                 bench.open += 1
             else:
                 found = "then" if truth else "else"

@@ -64,7 +64,10 @@ def _longer(text: MissionText, number: int, kept: PropertyConfiguration, final: 
 
 
 def agent_with(mission: Mission, agent: AgentConfiguration, edit: SmallEdit) -> AgentConfiguration:
-    """The agent with the goals and reactors that the mission file has with an edit; as it is where that is none."""
+    """The agent with the goals and reactors that the mission file has with an edit; as it is where that is none.
+
+    It is judged by no property that it was not judged by before.
+    """
     text = Source(mission.source.name, edited(mission.source.text, edit))
     changed, _ = parse_mission(text, Path(mission.agent.root))
     if changed is None:
@@ -72,7 +75,8 @@ def agent_with(mission: Mission, agent: AgentConfiguration, edit: SmallEdit) -> 
     pairs = zip(changed.agent.goals, agent.goals, strict=True)
     goals = tuple(replace(goal, mandatory=known.mandatory) for goal, known in pairs)
     agent = replace(agent, reactors=changed.agent.reactors, coded=changed.agent.coded, goals=goals)
-    return replace(agent, properties=changed.agent.properties)
+    judged = {one.name for one in agent.properties}
+    return replace(agent, properties=tuple(one for one in changed.agent.properties if one.name in judged))
 
 
 def _sites(text: MissionText, table: tuple[str | int, ...], values: Mapping[str, object]) -> Iterator[EditSite]:

@@ -350,12 +350,24 @@ class OpenGoal:
 
 
 @dataclass(frozen=True, slots=True)
+class LevelChange:
+    """By how much the level of a resource changes; `askers` are whose rules ask for it, each with what they ask for."""
+
+    reactor: str
+    resource: str
+    tick: int
+    amount: float
+    level: float
+    askers: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
 class PropertyFate:
     """Whether a property of the mission was kept; if not, the tick of its violation.
 
     `margin` is how far it was from being violated, infinite where no number decides. `is_void`: nothing that it
     promises was due, as what that follows on never happened, or too late. `seen` says what came in place of what was
-    to be reached, or which argument was never decided.
+    to be reached, which argument was never decided, or what the level was; `changes` led to a level that is violated.
     """
 
     name: str
@@ -364,6 +376,7 @@ class PropertyFate:
     margin: float
     is_void: bool = False
     seen: str = ""
+    changes: tuple[LevelChange, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -98,3 +98,28 @@ def test_a_mistake_about_a_level_is_named(
     (tmp_path / "mission.toml").write_text(ROVER_MISSION.replace(old, new))
     assert run(["lint", str(tmp_path / "mission.toml")]) != 0
     assert message in capsys.readouterr().out
+
+
+def test_a_story_tells_what_led_to_a_level_and_what_would_keep_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "rover.nddl").write_text(ROVER.replace("[10.0 40.0]", "[28.0 34.0]"))
+    late = '[[property]]\nname = "it never idles"\nkind = "never"\ntimeline = "rover"\npredicate = "Idle"\n'
+    again = '[[goal]]\ntimeline = "rover"\npredicate = "Drive"\nstart = [20, 25]\n'
+    text = ROVER_MISSION.replace("level = [75, inf]", "level = [40, inf]")
+    text = text.replace("[[property]]", f"start = [0, 5]\n{again}[[property]]", 1)
+    (tmp_path / "mission.toml").write_text(text + late)
+    monkeypatch.chdir(tmp_path)
+    assert run(["check", "mission.toml", "--missions", "10", "--workers", "1"]) == 1
+    shown = capsys.readouterr().out
+    assert "the level of battery is 3" in shown
+    assert ", at least 40 is promised; so is `it never idles` at tick " in shown
+    assert "as to this property and not to `it never idles`" in shown
+    assert "cause: change `" in shown
+    assert run(["explain", "latest", "--flights", "0"]) == 0
+    story = capsys.readouterr().out
+    first, second = (line for line in story.splitlines() if " of battery: its level is " in line)
+    assert "Rover.Drive takes " in first
+    assert "tick 20: Rover.Drive takes " in second
+    assert story.count("drain.quantity == used;") >= 2
+    assert story.index("DRAIN is ") < story.index("tick 1: Rover.Drive takes") < story.index("tick 20: rover publishes")

@@ -317,5 +317,7 @@ def test_what_only_code_publishes_is_judged_by_its_events() -> None:
         return property_fates(agent, ARGUMENTS, record, 100, events)[0]
 
     assert found(one) == PropertyFate("p", False, 30, -10.0)
+    silent = PropertyConfiguration("p", PropertyKind("never"), TokenPattern("buoy", "Seen", ()))
+    assert found(silent) == PropertyFate("p", True, None, inf)
     far = TokenPattern("whales", "Seen", (), "distance >= 50 and duration >= 30")
     assert found(PropertyConfiguration("p", PropertyKind("always"), far)) == PropertyFate("p", False, 30, -10.0)
