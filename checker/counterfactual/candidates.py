@@ -16,6 +16,7 @@ from pathlib import Path
 from checker.causes import Failed, dead_ends, failed_by, in_common, refusals
 from checker.counterfactual.deadlocks import lines_at_odds
 from checker.counterfactual.dependence import Dependence
+from checker.counterfactual.promises import forbids_values, promised_levels
 from checker.counterfactual.python_ways import read_in_python
 from checker.counterfactual.removals import forbidden_by, limited_between, removes_check
 from checker.counterfactual.smallness import is_loosening
@@ -27,7 +28,7 @@ from checker.proofs.places import ModelText
 from compiler.program import TOKEN_TIMES
 from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Span
-from runtime.executive.configuration import CodeConfiguration, PropertyConfiguration, PropertyKind, TokenPattern
+from runtime.executive.configuration import CodeConfiguration, PropertyConfiguration, TokenPattern
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import Abort, Conflict, Deadlock, ElementKind, Event, EventKind, Outcome, SourcePlace
 from runtime.solver.tags import RESOURCE_THREAT
@@ -155,7 +156,7 @@ def candidates_of(
         for number in graph.of_resource(predicate):
             if number not in roots or roots[number][0] > _LEVEL:
                 roots[number] = (_LEVEL, Suspicion.CONFLICT)
-    for resource in _levels(outcome, properties):
+    for resource in promised_levels(outcome, properties):
         for number in graph.of_level(resource):
             if number not in roots or roots[number][0] > _LEVEL:
                 roots[number] = (_LEVEL, Suspicion.TRACE)
@@ -168,7 +169,7 @@ def candidates_of(
         for number in sorted(graph.of_predicate(predicate, name)):
             if _sets(graph.sites[number].text, name):
                 roots.setdefault(number, (_OBSERVED, Suspicion.TRACE))
-    spoken = {predicate for predicate, _ in arguments} if _is_of_values(outcome, properties) else set[str]()
+    spoken = {predicate for predicate, _ in arguments} if forbids_values(outcome, properties) else set[str]()
     named = {number for predicate in predicates - spoken for number in graph.of_predicate(predicate)}
     awaited = graph.expected_with(roots or named, held) if failed.deadlock is None else ()
     for far, numbers in (
@@ -350,24 +351,11 @@ def _violated(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> 
     return {predicate for predicate, _ in _broken(outcome, properties)}
 
 
-def _levels(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> list[str]:
-    """The resource whose level the first violated property is about, if it is about one."""
-    broken = next((one.name for one in outcome.properties if not one.is_kept), "")
-    is_judged = given_up(outcome) is None
-    return [each.level.resource for each in properties if is_judged and each.name == broken and each.level is not None]
-
-
 def _arguments(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> set[tuple[str, str]]:
     """The same, each with the words of what the property says of its arguments."""
     broken = _broken(outcome, properties)
     said = [(name, [*dict(pattern.parameters), *_WORD.findall(pattern.where)]) for name, pattern in broken]
     return {(predicate, word) for predicate, words in said for word in words}
-
-
-def _is_of_values(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> bool:
-    """Whether the first violated property forbids values, whenever they come."""
-    broken = next((one.name for one in outcome.properties if not one.is_kept), "")
-    return any(each.name == broken and each.kind in (PropertyKind.NEVER, PropertyKind.ALWAYS) for each in properties)
 
 
 def _sets(text: str, name: str) -> bool:
