@@ -153,8 +153,9 @@ def _most_planned(reactors: list[TeleoReactor]) -> str:
         return ""
     (predicate, span), count = asked.most_common(1)[0]
     spans = database.code.spans
+    tokens = "token" if count == 1 else "tokens"
     place = f", for {spans[span].source.name}:{spans[span].line}" if 0 <= span < len(spans) else ""
-    return f"; `{largest.name}` plans {count} tokens `{database.program.predicates[predicate].name}`{place}"
+    return f"; `{largest.name}` plans {count} {tokens} `{database.program.predicates[predicate].name}`{place}"
 
 
 def _unloaded(configuration: AgentConfiguration, problem: UnusableModelError, world: World) -> Outcome:

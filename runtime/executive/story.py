@@ -241,9 +241,14 @@ class SearchLog:
         self.reader = _ElementReader(bench)
         self.log = FailureLog(bench.database, solver.agenda, solver.stack, lambda: self.reader)
 
+    @property
+    def tried(self) -> int:
+        """How many resolvers have failed, or were tried since none was left."""
+        return self.log.count + self.log.pruned
+
     def is_enough(self) -> bool:
         """Whether time is over and something was found: on a slow machine the first failure may take all of it."""
-        return self.log.count > 0 and TIME_LIMIT.is_over()
+        return self.tried > 0 and TIME_LIMIT.is_over()
 
     def deadlock(self) -> Deadlock | None:
         """Why the search ended without a plan; None if it did not."""
@@ -254,11 +259,11 @@ class SearchLog:
         others these are, how many failures name it, and how many there were."""
         blamed = self.log.blamed
         if not blamed:
-            return None, 0, 0, self.log.count
+            return None, 0, 0, self.tried
         most = max(blamed.values())
         alike = [span for span, count in blamed.items() if count == most]
         first = min(alike, key=lambda span: (span.source.name, span.line, span.column))
-        return first, len(alike) - 1, most, self.log.count
+        return first, len(alike) - 1, most, self.tried
 
     def rejection(self, t: int) -> Deadlock | None:
         """Why the search rejected token `t`; None if it did not."""

@@ -9,6 +9,7 @@ from nddlc.main import run
 from runtime.executive.configuration import GoalConfiguration
 from runtime.limits import TIME_LIMIT, OutOfTimeError
 from tests.executive.flying import flown, planner
+from tests.executive.variations.form import RESOURCES
 
 pytestmark = pytest.mark.once
 
@@ -78,6 +79,30 @@ def test_a_failure_is_named_however_slow_the_machine_is() -> None:
         TIME_LIMIT.lasting(100.0, lambda: next(slow)),
     ):
         flown(planner("planner", MODEL, "job"), until=60, goals=(goal,))
+
+
+def test_a_place_that_no_token_has_left_is_a_failure_with_its_lines() -> None:
+    """Eleven turns of five ticks in 52, one at a time: no choice fails, since what cannot hold is never chosen."""
+    turns = " ".join(f"contains(Arm.Turn {bird}); {bird}.n == {n};" for n, bird in enumerate(BIRDS))
+    model = f"""
+class Arm extends AgentTimeline {{
+    predicate Rest {{ }} predicate Turn {{ int n; }}
+    Arm(Mode m) {{ super(m, "Rest"); }}
+}}
+class Job extends AgentTimeline {{ predicate Free {{ }} predicate Fill {{ }} Job(Mode m) {{ super(m, "Free"); }} }}
+Reusable hand = new Reusable(1.0, 0.0);
+Job::Fill {{ {turns} duration <= 52; }}
+Arm::Turn {{ duration == 5; equals(hand.uses u); u.quantity == 1.0; }}
+Job job = new Job(Internal);
+Arm arm = new Arm(Internal);
+close();
+"""
+    slow, goal = count(0.0, 0.01), GoalConfiguration("job", "Fill", 0, True, (5.0, 20.0))
+    with (
+        pytest.raises(OutOfTimeError, match=r"`.*` \(planner.nddl:\d+\).* in the way in \d+ of its first \d+ failures"),
+        TIME_LIMIT.lasting(100.0, lambda: next(slow)),
+    ):
+        flown(planner("planner", model, "job arm"), until=80, goals=(goal,), solver=RESOURCES)
 
 
 def test_no_search_is_blamed_for_time_that_something_else_took() -> None:

@@ -63,9 +63,7 @@ class FailureLog:
         if self.count < _MOST:
             self.count += 1
             reader = self._reader()
-            attempt = self._attempt(self._resolver(d, reader), reader)
-            self.blamed.update({cause.span for cause in attempt.causes if cause.span is not None})
-            self._add(d, attempt)
+            self._add(d, self._blaming(self._resolver(d, reader), reader))
 
     def note_rejection(self, d: int) -> None:
         """Decision `d` is in force: note it if it has rejected a token."""
@@ -98,6 +96,12 @@ class FailureLog:
         """Names as the plan stands now."""
         names = token_names(self.database, live_tokens(self.database))
         return TermReader(self.database, lambda t: names.get(t, f"token {t}"))
+
+    def _blaming(self, resolver: Resolver, reader: TermReader) -> Attempt:
+        """The causes of the present conflict, whose lines are blamed for it."""
+        attempt = self._attempt(resolver, reader)
+        self.blamed.update({cause.span for cause in attempt.causes if cause.span is not None})
+        return attempt
 
     def _attempt(self, resolver: Resolver, reader: TermReader) -> Attempt:
         """The minimal causes of the present conflict; those without a source place come last."""
@@ -184,7 +188,7 @@ class FailureLog:
 
     def _add_pruned(self, d: int, resolver: Resolver, reader: TermReader) -> None:
         self.pruned += 1
-        self._add(d, self._attempt(resolver, reader))
+        self._add(d, self._blaming(resolver, reader))
 
     def _try_insertions(self, d: int, t: int, reader: TermReader) -> None:
         """Try every insertion of a token on every timeline that it may be on."""
