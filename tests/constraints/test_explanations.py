@@ -2,6 +2,8 @@
 
 import random
 from collections.abc import Sequence
+from functools import partial
+from itertools import count, pairwise
 from typing import Any
 
 import pytest
@@ -14,6 +16,7 @@ from runtime.constraints.explanation.support_walk import SupportWalk
 from runtime.constraints.minimisation.case_split import Budget
 from runtime.constraints.minimisation.minimise import Scratch, minimise
 from runtime.constraints.propagators import opcodes
+from runtime.limits import TIME_LIMIT
 from tests.constraints.reference import (
     BATCHES,
     BY_BOUND,
@@ -222,3 +225,19 @@ def test_taking_the_last_value_of_a_bool_blames_what_fixed_it() -> None:
     assert not engine.propagate()
     assert {3, 4, 5} <= {cause.span for cause in engine.explain()}
     assert Scratch(engine).refutes(engine.explain())
+
+
+def test_an_explanation_is_shrunk_no_further_when_the_time_of_the_mission_is_over() -> None:
+    engine = Engine()
+    x = [engine.new_interval(tags.KIND_INT, 0, 900, 1, -1) for _ in range(300)]
+    for number, (one, other) in enumerate(pairwise(x)):
+        engine.add_edge(one, other, -4, 2 + number, -1)
+    assert not engine.propagate()
+    needed = sufficient(engine)
+    spare = [Cause(CauseKind.EDGE, edge, 2 + edge, -1) for edge in range(len(needed), len(x) - 1)]
+    causes = [*spare, *needed]
+    least = minimise(engine, causes)
+    with TIME_LIMIT.lasting(0.0, partial(next, count())):
+        kept = minimise(engine, causes)
+    assert len(least) < len(kept) == len(causes)
+    assert Scratch(engine).refutes(kept)

@@ -19,6 +19,7 @@ from runtime.constraints.minimisation.case_split import Budget, fails_in_all_cas
 from runtime.constraints.propagators.external import External
 from runtime.constraints.propagators.opcodes import OP_ELEMENT, OP_EXTERNAL, OP_RAND, OP_WATCH
 from runtime.constraints.propagators.registry import BY_OP
+from runtime.limits import TIME_LIMIT
 
 _MOST_STEPS = 3000  # causes carried out while looking for what can be left out; a case counts as several
 
@@ -26,7 +27,7 @@ _MOST_STEPS = 3000  # causes carried out while looking for what can be left out;
 def minimise(engine: Engine, causes: Sequence[Cause]) -> list[Cause]:
     """Leave a set of causes of which none can be left out (QuickXplain, Junker 2004: O(k log(n / k)) propagations).
 
-    What propagation alone cannot refute stays as it is.
+    What propagation alone cannot refute stays as it is; so does what is left when the time of a mission is over.
     """
     scratch = Scratch(engine)
     if not scratch.refutes(causes):
@@ -40,6 +41,8 @@ def _without_spare(engine: Engine, causes: list[Cause]) -> list[Cause]:
         return causes  # of differences and bounds propagation sees all
     scratch = Scratch(engine, Budget(_MOST_STEPS))
     for cause in reversed(causes):
+        if TIME_LIMIT.is_over():
+            break
         others = [other for other in causes if other is not cause]
         if scratch.refutes(others):
             causes = others
@@ -150,7 +153,7 @@ class Scratch:
         """Give a smallest part of `causes` that is refuted together with the background (QuickXplain)."""
         if is_changed and self.refutes(background):
             return []
-        if len(causes) == 1:
+        if len(causes) == 1 or TIME_LIMIT.is_over():
             return causes
         half = len(causes) // 2
         left, right = causes[:half], causes[half:]

@@ -11,6 +11,7 @@ from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import FLAG_DECISION
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.minimisation.minimise import minimise
+from runtime.limits import TIME_LIMIT
 from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import fire, merge
 from runtime.plan.readout.cause_rendering import words
@@ -76,7 +77,7 @@ class FailureLog:
     def note_dead_end(self, d: int, heir: int) -> None:
         """Decision `d` has no resolver left; the search goes on at `heir` (NONE: nowhere)."""
         reader = self._reader()
-        if self.count < _MOST and self.pruned < _MOST_PRUNED:
+        if self.count < _MOST and self.pruned < _MOST_PRUNED and not TIME_LIMIT.is_over():
             self._try_pruned(d, reader)
         failed = FailedFlaw(self._flaw(d, reader), tuple(self.attempts.pop(d, ())))
         for other in range(max(heir, 0) + 1, d):
@@ -177,7 +178,7 @@ class FailureLog:
             rows = self.plan.rows
             other = first_active(self.plan, rows.predicate[item])
             trials = 0
-            while other >= 0 and trials < _MOST_TRIALS:
+            while other >= 0 and trials < _MOST_TRIALS and not TIME_LIMIT.is_over():
                 mark = self.database.mark()
                 if not merge(self.plan, item, other, NONE):
                     resolver = Resolver(ResolverKind.MERGE, (reader.token(other),))
@@ -203,7 +204,7 @@ class FailureLog:
             insertions = [(t, other) for other in sequence] + [(sequence[-1], t)] if sequence else [(t, t)]
             for before, after in insertions:
                 trials += 1
-                if trials > _MOST_TRIALS:
+                if trials > _MOST_TRIALS or TIME_LIMIT.is_over():
                     return
                 mark = self.database.mark()
                 if not (order(self.plan, o, before, after, NONE) and fire(self.plan)):
