@@ -22,6 +22,7 @@ from runtime.constraints.propagators.registry import BY_OP
 from runtime.limits import TIME_LIMIT
 
 _MOST_STEPS = 3000  # causes carried out while looking for what can be left out; a case counts as several
+_MOST_LATE = 20_000  # causes carried out when the time of the mission is over
 
 
 def minimise(engine: Engine, causes: Sequence[Cause]) -> list[Cause]:
@@ -41,7 +42,7 @@ def _without_spare(engine: Engine, causes: list[Cause]) -> list[Cause]:
         return causes  # of differences and bounds propagation sees all
     scratch = Scratch(engine, Budget(_MOST_STEPS))
     for cause in reversed(causes):
-        if TIME_LIMIT.is_over():
+        if scratch.is_late():
             break
         others = [other for other in causes if other is not cause]
         if scratch.refutes(others):
@@ -58,6 +59,7 @@ class Scratch:
     def __init__(self, engine: Engine, budget: Budget | None = None) -> None:
         self.engine = engine
         self.budget = budget
+        self.steps = 0  # causes carried out so far
         self.copy = Engine(relational=budget is not None)
         self.copy.holes = engine.holes
         self.copy.object_parent = engine.object_parent
@@ -86,10 +88,15 @@ class Scratch:
             self.copy.commit()
         return w
 
+    def is_late(self) -> bool:
+        """Whether it has taken long, and the time of the mission is over."""
+        return self.steps > _MOST_LATE and TIME_LIMIT.is_over()
+
     def refutes(self, causes: Sequence[Cause]) -> bool:
         """Tell whether propagation, or with a budget a case split too, finds a set of causes inconsistent."""
         if self.budget is not None and self.budget.is_spent(len(causes)):
             return False
+        self.steps += len(causes)
         for cause in causes:
             self.copies(cause)  # before the mark: they stay
         mark = self.copy.mark()
@@ -153,7 +160,7 @@ class Scratch:
         """Give a smallest part of `causes` that is refuted together with the background (QuickXplain)."""
         if is_changed and self.refutes(background):
             return []
-        if len(causes) == 1 or TIME_LIMIT.is_over():
+        if len(causes) == 1 or self.is_late():
             return causes
         half = len(causes) // 2
         left, right = causes[:half], causes[half:]

@@ -77,7 +77,7 @@ class FailureLog:
     def note_dead_end(self, d: int, heir: int) -> None:
         """Decision `d` has no resolver left; the search goes on at `heir` (NONE: nowhere)."""
         reader = self._reader()
-        if self.count < _MOST and self.pruned < _MOST_PRUNED and not TIME_LIMIT.is_over():
+        if self.count < _MOST and self.pruned < _MOST_PRUNED and not self._is_late():
             self._try_pruned(d, reader)
         failed = FailedFlaw(self._flaw(d, reader), tuple(self.attempts.pop(d, ())))
         for other in range(max(heir, 0) + 1, d):
@@ -86,6 +86,10 @@ class FailureLog:
             self.end = failed
         else:
             self._add(heir, Attempt(self._resolver(heir, reader), (), failed))
+
+    def _is_late(self) -> bool:
+        """Whether the time of the mission is over, and something that stands in the way is known."""
+        return self.count + self.pruned > 0 and TIME_LIMIT.is_over()
 
     def _add(self, d: int, attempt: Attempt) -> None:
         """Add to the attempts of decision `d`, each once."""
@@ -178,7 +182,7 @@ class FailureLog:
             rows = self.plan.rows
             other = first_active(self.plan, rows.predicate[item])
             trials = 0
-            while other >= 0 and trials < _MOST_TRIALS and not TIME_LIMIT.is_over():
+            while other >= 0 and trials < _MOST_TRIALS and not self._is_late():
                 mark = self.database.mark()
                 if not merge(self.plan, item, other, NONE):
                     resolver = Resolver(ResolverKind.MERGE, (reader.token(other),))
@@ -204,7 +208,7 @@ class FailureLog:
             insertions = [(t, other) for other in sequence] + [(sequence[-1], t)] if sequence else [(t, t)]
             for before, after in insertions:
                 trials += 1
-                if trials > _MOST_TRIALS or TIME_LIMIT.is_over():
+                if trials > _MOST_TRIALS or self._is_late():
                     return
                 mark = self.database.mark()
                 if not (order(self.plan, o, before, after, NONE) and fire(self.plan)):
