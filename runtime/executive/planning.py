@@ -217,7 +217,8 @@ class Planner:
         self.window = _Window(bench, LeftOut(bench, configuration))
         self.window.final = final_tick
         bench.engine.trail_most = _MOST_CHANGES
-        self.solver = Solver(bench.database, within_window(configuration), 0, 1, False)
+        table = within_window(configuration, any(bench.database.plan.resources.is_resource))
+        self.solver = Solver(bench.database, table, 0, 1, False)
         self.solver.set_scope(self.window)
         self.solver.agenda.earliest = True
         self.max_steps = max_steps

@@ -8,7 +8,14 @@ from dataclasses import replace
 
 from runtime.executive.view import PlanView
 from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, LIST_THREAT, LISTS, NONE
-from runtime.solver.configuration.configuration import Configuration, FlawFilter, FlawManager, Match
+from runtime.solver.configuration.configuration import (
+    Configuration,
+    FlawFilter,
+    FlawManager,
+    Match,
+    default_configuration,
+    with_resources,
+)
 from runtime.solver.configuration.handler_matching import HandlerMatching
 from runtime.solver.configuration.handler_table import HandlerTable
 
@@ -16,8 +23,8 @@ _TIMES = (
     *[Match(variable=name) for name in ("start", "end", "duration")],
     *[Match(class_name=owner, variable="time") for owner in ("Resource", "Reservoir")],
 )
-_OPEN = "OpenConditionManager"
-_OF_TOKENS = (_OPEN, "ThreatManager")  # of open tokens, and of those that are in no sequence
+_OPEN, _ORDER = "OpenConditionManager", "ThreatManager"
+_OF_TOKENS = (_OPEN, _ORDER)  # of open tokens, and of those that are in no sequence
 
 
 class LeftOut:
@@ -52,23 +59,28 @@ def plans_ahead(configuration: Configuration) -> bool:
     return not any(each.component == "FlawFilter" and each.match in everything for each in configuration.filters)
 
 
-def within_window(configuration: Configuration) -> Configuration:
+def within_window(configuration: Configuration, has_resources: bool) -> Configuration:
     """The table as a reactor's solver has it: the window replaces the horizon, and what is left out of planning alone.
 
-    Times are left to the execution, but for those that a handler names.
+    Times are left to the execution, but for those that a handler names. What is planned on a timeline is always put in
+    order there, for nothing begins that has no place.
     """
     common = [each for each in configuration.filters if _is_of_tokens(each)]
+    given = with_resources(configuration) if has_resources else configuration  # whose filters count for resources
     managers = []
-    for each in configuration.managers:
+    for each in given.managers:
         filters = tuple([one for one in each.filters if one.component != "HorizonFilter"])
-        if each.component == _OPEN:
+        if each.component in _OF_TOKENS:
             filters = tuple([one for one in filters if not _is_of_tokens(one)])
-        elif each.component not in _OF_TOKENS:
+        elif not each.for_tokens:
             filters = (*common, *filters)
         if each.component == "UnboundVariableManager":
             named = {handler.match.variable for handler in each.handlers}
             filters += tuple([FlawFilter(match=match) for match in _TIMES if match.variable not in named])
         managers.append(replace(each, filters=filters))
+    if all(each.component != _ORDER for each in managers):
+        usual = next(one for one in default_configuration().managers if one.component == _ORDER)
+        managers.insert(0, replace(usual, handlers=()))  # its filters leave resources alone
     if all(each.component != _OPEN for each in managers):
         managers.append(FlawManager(_OPEN))
     clock = FlawFilter(match=Match(variable="AGENT_CLOCK"))

@@ -111,6 +111,25 @@ def test_what_is_not_planned_is_settled_when_it_holds(word: str, match: Match, c
     assert mission.report.disagreements == ()
 
 
+ORDERED = "ThreatManager"
+UNORDERED = replace(
+    default_configuration(), managers=tuple(one for one in default_configuration().managers if one.component != ORDERED)
+)
+
+
+@pytest.mark.parametrize("lookahead", [1, 20])
+@pytest.mark.parametrize(
+    "solver",
+    [*(leaving_out(Match(class_name=name), ORDERED) for name in ("Kiln", "Fan", "AgentTimeline")), UNORDERED],
+    ids=["kiln", "fan", "all", "no manager"],
+)
+def test_what_is_planned_is_put_in_order_whatever_a_table_leaves_out(solver: Configuration, lookahead: int) -> None:
+    wishes = "rejectable(kiln.Hot g); g.heat == 2; g.start == 3; rejectable(kiln.Hot h); h.heat == 3; h.start >= 5;"
+    mission = flown(planner("works", f"{BOTH} {wishes}", "kiln fan", lookahead=lookahead), until=20, solver=solver)
+    assert history(mission.outcome, "kiln") == ["0 Cold", "3 Hot(heat=2)", "7 Hot(heat=3)", "11 Cold"]
+    assert mission.report.disagreements == ()
+
+
 def test_a_wish_that_is_not_to_be_planned_is_given_up() -> None:
     text = f"{BOTH} rejectable(kiln.Hot h); h.heat == 3; h.start == 4;"
     mission = flown(planner("works", text, "kiln fan", lookahead=20), solver=leaving_out(Match(class_name="Kiln")))
