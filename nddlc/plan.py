@@ -157,7 +157,7 @@ def command(
     )
     profiles = level_profiles(database, limits.start)
     if as_json:
-        click.echo(json_text(_data(loaded, report, profiles, reasons, before.is_consistent), None))
+        click.echo(json_text(_data(loaded, report, profiles, reasons, before.is_consistent, reactor), None))
     else:
         _show(loaded, report, profiles, reasons, style)
     if ended == INTERRUPTED:
@@ -196,8 +196,9 @@ def _data(
     profiles: Mapping[str, LevelProfile],
     reasons: Mapping[str, FailedFlaw],
     was_consistent: bool,
+    reactor: str | None,
 ) -> dict[str, Any]:
-    """The result for programs."""
+    """The result for programs; of a mission also whose goals were planned, where that was asked for."""
     data = as_data(loaded, report.plan) | {"consistent": was_consistent}
     data["solve"] = {"result": report.result, "steps": report.steps, "depth": report.depth}
     if report.is_exhausted:
@@ -208,6 +209,8 @@ def _data(
     if report.is_explained:
         data["explanation"] = {name: reason_data(failure) for name, failure in reasons.items()}
     data["levels"] = {name: each.as_data() for name, each in profiles.items()}
+    if reactor is not None:
+        data["reactor"] = reactor
     return data
 
 

@@ -8,6 +8,7 @@ import click
 from checker.judge.document import record_data
 from checker.judge.draws import Chance
 from checker.judge.judge import judge_mission, judge_plan
+from checker.judge.printed_plan import is_printed, plan_document
 from checker.judge.reading import read_json, read_plan, read_record
 from checker.judge.rendering import report_data, report_text
 from checker.judge.report import JudgeReport
@@ -21,12 +22,13 @@ from checker.proofs.judgement import ProvedJudgement, judgement_data, judgement_
 from checker.proofs.operands import names_of
 from compiler.lower import compile_model
 from compiler.program import Program
-from nddl_lang.analysis import analyse_file
+from nddl_lang.analysis import Analysis, analyse_file, analyse_text
 from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.repair import repaired
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import render
 from nddl_lang.text.values import json_text
+from nddlc.goals import goals_of
 from nddlc.inputs import Unusable, configured, present, readable
 from nddlc.mission_trust import models_of
 from nddlc.trust import trust_option
@@ -229,16 +231,20 @@ def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> _Jud
         raise DocumentError("it is no object of JSON")
     if "reactors" in data:
         return _recorded(path, data, mission_path, is_trusted)
-    if not isinstance(data.get("model"), str):
+    name = data["file"] if is_printed(data) else data.get("model")
+    if not isinstance(name, str):
         raise DocumentError("it names no `model`")
-    model = path.parent / data["model"]
-    if not model.is_file():
-        raise DocumentError(f"there is no model `{model}`")
-    settings = configured(model)
-    analysis = analyse_file(model, settings.dialect, settings.directories, most=settings.most_lexemes)
+    model = next((each for each in _places(path, name, is_printed=is_printed(data)) if each.is_file()), None)
+    if model is None:
+        raise DocumentError(f"there is no model `{path.parent / name}`")
+    reactor = data.get("reactor")
+    analysis = _analysed(model, reactor if is_printed(data) and isinstance(reactor, str) else None)
     _refuse(repaired(analysis).diagnostics)
     program = compile_model(analysis)
-    plan = read_plan(data, _base(program, _PLAN), program)._replace(reactor=_PLAN)
+    base = _base(program, _PLAN)
+    if is_printed(data):
+        data = plan_document(data, program, base)
+    plan = read_plan(data, base, program)._replace(reactor=_PLAN)
     report, followed = judge_plan(program, plan, is_whole="last_tick" not in data)
     names = names_of(program)
     timelines = tuple(each.name for each in plan.objects if names.is_kind_of(each.class_name, "Timeline"))
@@ -246,6 +252,22 @@ def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> _Jud
     reactor = ReactorConfiguration(_PLAN, str(model), internal=timelines)
     agent = AgentConfiguration(_PLAN, str(path.parent), last, (reactor,))
     return _Judged(report, agent, (program,), MissionRecord((followed,)), None)
+
+
+def _places(path: Path, name: str, *, is_printed: bool) -> tuple[Path, ...]:
+    """Where the model of a plan may be: beside the document; one that a command named, where this one runs."""
+    return (path.parent / name, Path(name)) if is_printed else (path.parent / name,)
+
+
+def _analysed(model: Path, reactor: str | None) -> Analysis:
+    """The analysis of a model, or of the goals of a mission file with the model of their planner."""
+    text = None
+    if model.suffix in MISSION_SUFFIXES:
+        model, text, _, _ = goals_of(model, reactor)
+    settings = configured(model)
+    if text is not None:
+        return analyse_text(str(model), text, settings.dialect, settings.directories, most=settings.most_lexemes)
+    return analyse_file(model, settings.dialect, settings.directories, most=settings.most_lexemes)
 
 
 def _recorded(path: Path, data: dict[str, Any], mission_path: Path | None, is_trusted: bool) -> _Judged:

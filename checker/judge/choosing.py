@@ -67,7 +67,8 @@ class Choosing:
         """The key of the token that this child is taken to be; NOBODY for none of the plan."""
         n = len(self.counts)
         found = _candidates(frame, child, pairs, holder, names)
-        if may_be_outside(frame.bench, child, pairs, frame.tokens[child.origin]):
+        is_outside = may_be_outside(frame.bench, child, pairs, frame.tokens[child.origin])
+        if is_outside or is_left_open(frame, child, holder, names):
             found.append(NOBODY)
         self.counts.append(len(found))
         if n == len(self.taken):
@@ -100,12 +101,18 @@ def _candidates(
     ]
 
 
-def _of_predicate(frame: BodyFrame, child: Child, names: VariableNames) -> Iterator[Tok]:
-    """The tokens of the predicate that a rule asks for."""
+def is_left_open(frame: BodyFrame, child: Child, holder: Value | None, names: VariableNames) -> bool:
+    """Whether the plan has an inactive token that may be the child: a planner leaves those beyond its horizon."""
+    fitting = _of_predicate(frame, child, names, "inactive")
+    return any(holder is None or may_be_equal(tok.values[OBJECT], holder) for tok in fitting)
+
+
+def _of_predicate(frame: BodyFrame, child: Child, names: VariableNames, state: str = "active") -> Iterator[Tok]:
+    """The tokens in a state of the predicate that a rule asks for."""
     wanted_class, _, suffix = child.predicate.rpartition(".")
     for record in frame.bench.tokens.records():
         class_name, _, name = record.predicate.rpartition(".")
-        if name == suffix and record.state == "active" and names.is_kind_of(class_name, wanted_class):
+        if name == suffix and record.state == state and names.is_kind_of(class_name, wanted_class):
             tok = frame.bench.tokens.get(record.key)
             assert tok is not None
             yield tok

@@ -2,9 +2,10 @@
 
 import json
 from collections.abc import Iterable
-from math import inf
+from math import inf, isfinite
 from typing import Any
 
+from checker.judge.values import ends_of
 from checker.judge.written_values import TICK, DocumentError, TypedValues, unknown
 from compiler.program import PredicateCode, Program, TypeCode
 from nddl_lang.text.values import json_value
@@ -74,12 +75,17 @@ def read_plan(data: Any, base: ReactorRecord, program: Program) -> ReactorRecord
             raise DocumentError(f"token {token.key}: `merged_into`: there is no token {token.merged_into}")
         if token.state == "merged" and token.merged_into == NOBODY:
             raise DocumentError(f"token {token.key} is merged, but lacks `merged_into`")
-    ends = [int(token.end) for token in tokens if isinstance(token.end, int)]
-    last = data.get("last_tick", max(ends, default=0))
+    last = data.get("last_tick", max(map(_latest, tokens), default=0))
     if not _is_whole(last):
         raise DocumentError(f"`last_tick` is a whole number, not {json.dumps(last)}")
     script = _whole_numbers(data, "script_tokens", "the plan")
     return ReactorRecord(str(data.get("reactor", base.reactor)), last, worlds, things, script, tokens)
+
+
+def _latest(token: TokenRecord) -> int:
+    """The last tick at which a token may end, or begin, as far as that is bounded."""
+    bounds = [bound for value in (token.start, token.end) for bound in ends_of(value)]
+    return int(max((bound for bound in bounds if isfinite(bound)), default=0))
 
 
 def _globals(given: Any, base: ReactorRecord, program: Program, types: TypedValues) -> tuple[Value, ...]:

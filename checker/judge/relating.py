@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from checker.judge.bench import Bench, Tok
-from checker.judge.choosing import may_be_outside, nearest_of
+from checker.judge.choosing import is_left_open, may_be_outside, nearest_of
 from checker.judge.meanings import equal
 from checker.judge.operands import BodyFrame, VariableNames, member_of, reader
 from checker.judge.relations import OE, OS, TE, demands
@@ -33,6 +33,9 @@ def child_step(child: Child, names: VariableNames) -> Step:
             key = frame.choosing.pick(frame, child, pairs, holder, names)
             if key == NOBODY and may_be_outside(bench, child, pairs, frame.tokens[origin]):
                 bench.skip("a child that lies outside of what is told")
+                return
+            if key == NOBODY and is_left_open(frame, child, holder, names):
+                bench.skip("a child that the plan leaves inactive")
                 return
             if key == NOBODY:
                 near, missed = nearest_of(frame, child, pairs, holder, names)
