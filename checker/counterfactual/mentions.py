@@ -11,6 +11,7 @@ from collections.abc import Container, Sequence
 from checker.counterfactual.word_odds import compared
 from checker.mutation.edits import EditSite, SmallEdit
 from checker.mutation.kinds import EditKind
+from checker.mutation.labels import Label
 
 _PATH = re.compile(r"[A-Za-z_]\w*(?:\.\w+)*")
 _NUMBERS = ("int ", "float ")
@@ -27,10 +28,15 @@ _SAME = re.compile(r"\s*([\w.]+)\s*==\s*([\w.]+)\s*;")
 
 
 class Mentions:
-    """What the lines of each rule set, read and declare; `constants` belong to no rule."""
+    """What the lines of each rule set, read and declare.
 
-    def __init__(self, sites: Sequence[EditSite], constants: Container[str], counts: Counter[str]) -> None:
-        self._constants, self._counts = constants, counts
+    `constants` belong to no rule, and no line needs to read `labels`.
+    """
+
+    def __init__(
+        self, sites: Sequence[EditSite], constants: Container[str], counts: Counter[str], labels: Container[Label] = ()
+    ) -> None:
+        self._constants, self._counts, self._labels = constants, counts, labels
         self._locals: dict[object, set[str]] = defaultdict(set)
         self._set: dict[object, Counter[str]] = defaultdict(Counter)
         self._read: dict[object, Counter[str]] = defaultdict(Counter)
@@ -181,6 +187,8 @@ class Mentions:
             if is_set:
                 return set_by + self._called[scope][name] <= but
             return read <= but or set_by + read <= 1 + but
+        if (site.rule.rpartition(".")[2], name) in self._labels:
+            return False
         if name in _OWN_END:
             return sum(self._of_rule[site.rule][one] for one in _OWN_END) <= but
         if self._is_own(name, site):

@@ -30,6 +30,7 @@ from checker.mission import Mission
 from checker.mutation.additions import with_additions
 from checker.mutation.edits import EditSite, SmallEdit, sites_of
 from checker.mutation.kinds import OUTSIDE
+from checker.mutation.labels import labels_of
 from checker.mutation.mission_edits import agent_with
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
 from checker.oracle import Verdict, given_up, judge_losses
@@ -103,7 +104,8 @@ def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]
     for model in dict.fromkeys(each.model for each in agent.reactors):
         for site in sites_of(load_graph(root / model, overlay)):
             found.setdefault((site.file, site.first, site.text), site)
-    return with_durations(with_additions(list(found.values())))
+    sites = list(found.values())
+    return with_durations(with_additions(sites, labels_of(agent.goals, sites)))
 
 
 def _as_flown(missions: Missions, agent: AgentConfiguration) -> Missions:
@@ -126,7 +128,8 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     graph = Dependence(world.programs, sites)
     sites_reached = Universe(world.programs).sites
     exercised = [site.span for number, site in enumerate(sites_reached) if number in missions.exercised]
-    usage = usage_of(sites, passing=missions.passing, is_late=is_late(missions.failed[0]))
+    labels = labels_of(missions.goals, sites)
+    usage = usage_of(sites, passing=missions.passing, is_late=is_late(missions.failed[0]), labels=labels)
     models = {each.model: program for each, program in zip(world.agent.reactors, world.programs, strict=True)}
     text = text_of(world.agent, models)
     agent = world.agent

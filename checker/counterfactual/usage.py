@@ -19,6 +19,7 @@ from checker.counterfactual.siblings import Siblings
 from checker.counterfactual.word_odds import SAMPLED, TRUTHS, sign_of, sort_of, sum_of
 from checker.mutation.edits import EditSite, SmallEdit, inverse_of
 from checker.mutation.kinds import EditKind
+from checker.mutation.labels import Label
 
 _LABEL = re.compile(r"\s+(\w+)\s*\)")
 _MADE = re.compile(r"\bnew\s+\w+\s*\(([^()]*)\)")
@@ -185,8 +186,10 @@ class Usage:
         return max(odds, _LEAST_ODDS) if sort == "condition" else odds
 
 
-def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0, is_late: bool = True) -> Usage:
-    """The usage of words in all lines; a line that sets a variable does not use it."""
+def usage_of(
+    sites: Sequence[EditSite], *, passing: float = 0.0, is_late: bool = True, labels: Container[Label] = ()
+) -> Usage:
+    """The usage of words in all lines; a line that sets a variable does not use it. `labels` need no line."""
     counts: Counter[str] = Counter()
     kinds: Counter[EditKind] = Counter()
     meant: Counter[tuple[object, str]] = Counter()
@@ -199,7 +202,7 @@ def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0, is_late: bool =
         sums.update(sum_of(edit, site) for edit in words.values() if edit.kind is EditKind.SIGN)
     sampled = {name for site in sites for name in SAMPLED.findall(site.text)}
     named = {site.named for site in sites if site.named}
-    mentions = Mentions(sites, named, counts)
+    mentions = Mentions(sites, named, counts, labels)
     directions = Directions(sites, named, is_late=is_late)
     made = {one.strip(' "') for site in sites for found in _MADE.findall(site.text) for one in found.split(",")}
     lines = (Formulas(sites, named), Orders(sites), Siblings(sites), TimeLimits(sites), Distinct(sites))

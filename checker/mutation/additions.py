@@ -6,11 +6,12 @@ So may a limit that holds two moments to each other without any slack, where oth
 
 import re
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import replace
 
 from checker.mutation.edits import EditSite, SmallEdit
 from checker.mutation.kinds import EditKind
+from checker.mutation.labels import Label
 from compiler.program import TOKEN_TIMES
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
@@ -26,8 +27,8 @@ _POINTS = ("start", "end")
 _MOST_IDLE = 4  # names that nothing reads: where there are more, that says little
 
 
-def with_additions(sites: Sequence[EditSite]) -> list[EditSite]:
-    """All sites; those of rules have edits that write what nothing reads into an expression."""
+def with_additions(sites: Sequence[EditSite], labels: Container[Label] = ()) -> list[EditSite]:
+    """All sites; those of rules have edits that write what nothing reads into an expression, but for `labels`."""
     words = {site: [word for word in _WORD.findall(site.text) if word != site.named] for site in sites}
     used = Counter(word for found in words.values() for word in found)
     constants = [site for site in sites if site.is_number and not used[site.named]]
@@ -46,7 +47,8 @@ def with_additions(sites: Sequence[EditSite]) -> list[EditSite]:
         near = [one for one in constants if one.file == file or one.file not in files]
         idle = [(one.named, "float" if one.text.startswith("float") else "int", False) for one in near[:_MOST_IDLE]]
         idle += [(name, kind, True) for name, kind in _unread_locals(lines, words)]
-        idle += [(name, kind, True) for name, kind in _unread_inputs(heads.get((file, scope)), lines, words)]
+        inputs = _unread_inputs(heads.get((file, scope)), lines, words)
+        idle += [(name, kind, True) for name, kind in inputs if (_predicate(lines), name) not in labels]
         for site in lines if idle else ():
             for name, kind, is_local in idle:
                 found[site] += _grown(site, name, kind == "float", is_local)
@@ -77,6 +79,11 @@ def _unread_inputs(
         return
     said = {word for site in lines for word in words[site]}
     yield from ((name, kind) for name, kind in head.inputs if name not in said)
+
+
+def _predicate(lines: Sequence[EditSite]) -> str:
+    """The predicate of a rule, without its class."""
+    return lines[0].rule.rpartition(".")[2]
 
 
 def _grown(site: EditSite, name: str, is_real: bool, is_local: bool) -> Iterator[SmallEdit]:
