@@ -8,7 +8,7 @@ from checker.conditions.rendering import condition_data, condition_lines
 from checker.contrast import Contrast
 from checker.contrast_rendering import contrast_lines
 from checker.counterfactual.ranking import Causes, Claim
-from checker.counterfactual.rendering import UNFLOWN, causes_data, claim_text, effort_text, nothing_text
+from checker.counterfactual.rendering import causes_data, claim_text, effort_text, has_no_flown, nothing_text
 from checker.excerpts import Excerpts
 from checker.findings import Fault
 from checker.losses import Repairs
@@ -78,8 +78,9 @@ def _cause_lines(story: Story, causes: Causes, excerpts: Excerpts, most: int) ->
     effort = effort_text(causes, "the same mission" if causes.flown in (0, story.number) else "one that fails alike")
     if not causes.ranked:
         return [nothing_text(effort)]
-    if causes.ranked[0].claim in UNFLOWN:
-        what = "the line that failed" if causes.ranked[0].claim is Claim.RAISED else "guesses, the likeliest first"
+    if has_no_flown(causes):
+        is_seen = causes.ranked[0].claim in (Claim.RAISED, Claim.ASLEEP)
+        what = "the line that failed" if is_seen else "guesses, the likeliest first"
         lines = [f"{nothing_text(effort)}; {what}:"]
     else:
         lines = [f"causes, the likeliest first ({effort}):"]

@@ -8,6 +8,7 @@ has no value is second at least. Where a branch lacks what the other sets, what 
 """
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
@@ -34,6 +35,7 @@ class Claim(StrEnum):
     CODED = "coded"  # the same of a call of the project's Python, of which nothing smaller can be tried
     PARTLY = "partly"  # some of them pass, or others that passed fail
     EVADES = "evades"  # they pass, but goals are lost, or what happens in all other missions does not
+    ASLEEP = "asleep"  # Python of the project published there what nothing calls it to end
     RAISED = "raised"  # Python of the project raised there, and no change of a model keeps it from that
     LOOSE_END = "loose end"  # a line may be missing: nothing was flown
     UNEVEN = "uneven branches"  # the same, by what one branch of a condition sets and the other does not
@@ -101,8 +103,11 @@ NO_CAUSES = Causes()
 CANCELLED = Causes(ended=TrialsEnd.CANCELLED)  # a signal came before anything was tried
 
 
-def rank(trials: Trials, root: Path, raised: RankedLine | None = None) -> Causes:
-    """All causes of a fault in order, each line once; where Python has `raised`, that line, and no line is missing."""
+def rank(trials: Trials, root: Path, raised: RankedLine | None = None, asleep: Sequence[RankedLine] = ()) -> Causes:
+    """All causes of a fault in order, each line once; where Python has `raised`, that line, and no line is missing.
+
+    Where Python is `asleep` that is to end what broke the plan, no change of a model wakes it: its line is the first.
+    """
     uneven = {one.candidate.site for one in trials.loose if one.is_uneven}
     mending = [one for one in trials.causes if _claim(one) is Claim.MENDS]
     small = [one for one in mending if one.edit.kind is not EditKind.VALUE or one.candidate.site not in uneven]
@@ -123,7 +128,7 @@ def rank(trials: Trials, root: Path, raised: RankedLine | None = None) -> Causes
     missing = [_loose(one, root) for one in loose if not small or (_is_telling(one) and not _is_read(one, brought))]
     unset = [_loose(one, root) for one in loose if one.is_unset and one.doubt <= _LEAST_DOUBT]
     mended = [_tried(one, root) for one in small]
-    causes = [*mended[:1], *unset, *mended[1:], *telling, *tried, *told, *faint, *evading, *missing]
+    causes = [*asleep, *mended[:1], *unset, *mended[1:], *telling, *tried, *told, *faint, *evading, *missing]
     lines: dict[tuple[str, int], RankedLine] = {}
     for cause in causes:
         lines.setdefault((cause.place.file, cause.place.line), cause)

@@ -11,7 +11,8 @@ from checker.mutation.kinds import EditKind
 from checker.mutation.swaps import swapped_parts
 
 _MOST_TEXT = 60
-UNFLOWN = (Claim.LOOSE_END, Claim.UNEVEN, Claim.UNREAD, Claim.UNSET, Claim.RAISED)  # that no flight speaks for
+# What no flight speaks for.
+_UNFLOWN = (Claim.LOOSE_END, Claim.UNEVEN, Claim.UNREAD, Claim.UNSET, Claim.RAISED, Claim.ASLEEP)
 
 
 def claim_text(cause: RankedLine, remarks: Sequence[Remark] = ()) -> str:
@@ -43,6 +44,8 @@ def _claimed(cause: RankedLine) -> str:
         case Claim.EVADES:
             less = "but it does less" if cause.missions == 1 else "but they do less"
             return f"{change}: {_passes(cause)}, {less}"
+        case Claim.ASLEEP:
+            return f"nothing calls `{cause.variable}` any more to end what it publishes here (no `now.wake` is left)"
         case Claim.RAISED:
             return f"`{cause.variable}` failed here; its Python was not changed"
         case Claim.LOOSE_END:
@@ -68,9 +71,14 @@ def cause_text(causes: Causes) -> str:
         return f"not known ({effort_text(causes)})"
     if causes.first is None:
         return nothing_text(effort_text(causes))
-    if causes.first.claim in UNFLOWN:
+    if has_no_flown(causes):
         return f"{nothing_text(effort_text(causes))}; {claim_text(causes.first, causes.remarks)}"
     return f"{claim_text(causes.first, causes.remarks)} ({effort_text(causes)})"
+
+
+def has_no_flown(causes: Causes) -> bool:
+    """Whether no flight speaks for any of the causes."""
+    return all(one.claim in _UNFLOWN for one in causes.ranked)
 
 
 def nothing_text(effort: str) -> str:

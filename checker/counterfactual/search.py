@@ -19,6 +19,7 @@ from checker.counterfactual.loose_ends import loose_ends
 from checker.counterfactual.mission_lines import mission_lines
 from checker.counterfactual.missions import Missions
 from checker.counterfactual.moments import with_durations
+from checker.counterfactual.python_ways import asleep_in
 from checker.counterfactual.ranking import Causes, Claim, RankedLine, rank
 from checker.counterfactual.remarks import remarks_of, with_remarks
 from checker.counterfactual.trials import Trials, try_out
@@ -76,9 +77,10 @@ class CauseSearch:
         aside = tuple(one.name for one in missions.failed[0].judgement.also)
         trials = find_causes(missions, _without(self._world, aside), bounds)
         root = Path(self._world.agent.root)
-        found = rank(trials, root, _raised_in(missions.failed[0]))
+        first = missions.failed[0]
+        found = rank(trials, root, _raised_in(first), _asleep_in(first, self._world.agent))
         remarks = remarks_of(self._world.findings, root)
-        return replace(found, flown=missions.failed[0].number, remarks=remarks, aside=aside)
+        return replace(found, flown=first.number, remarks=remarks, aside=aside)
 
     def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
         """Whether the change of a cause makes another failed mission pass, with all goals; False where time is over."""
@@ -154,6 +156,14 @@ def _raised_in(failed: MissionResult) -> RankedLine | None:
     if abort is None or abort.reason.raised is None:
         return None
     return RankedLine(abort.reason.raised, "", Claim.RAISED, variable=abort.reactor)
+
+
+def _asleep_in(failed: MissionResult, agent: AgentConfiguration) -> list[RankedLine]:
+    """The lines of the project's Python that published what broke a plan, where nothing calls it to end that."""
+    if failed.outcome is None:
+        return []
+    asleep = asleep_in(failed.outcome, failed_by(failed.outcome).conflict, agent)
+    return [RankedLine(place, "", Claim.ASLEEP, variable=reactor) for reactor, place in asleep]
 
 
 def is_late(failed: MissionResult) -> bool:

@@ -78,6 +78,11 @@ class CodedReactor(TeleoReactor):
         wake = self.wake if self.commands is None else min(self.wake, self.commands.next_call(tick))
         return max(tick + 1, wake)
 
+    def is_asleep(self) -> bool:
+        """Whether nothing will call the code any more, unless it is asked for something."""
+        is_asked = self.commands is not None and (bool(self.commands.waiting) or self.commands.has_news)
+        return self.wake >= _NEVER and not self.wakes_on and not self.refused_numbers and not is_asked
+
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published."""
         news = observation

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from compiler.program import DomainConstant, Program
@@ -121,11 +121,13 @@ def _flown(
     clock = clock or clock_of(configuration.clock)
     agent = Agent(configuration, reactors, goals, seed, trace, every_tick, tells_on, clock)
     try:
-        return agent.run(until), reactors
+        outcome = agent.run(until)
     except OutOfTimeError as problem:
         raise OutOfTimeError(f"{problem}: {_endless(agent.tick, problem.planner, reactors)}") from problem
     except LimitError as problem:
         raise LimitError(f"no end was found at tick {agent.tick}: {problem}{_most_planned(reactors)}") from problem
+    asleep = [one for one in reactors if isinstance(one, CodedReactor) and one.is_asleep()]
+    return replace(outcome, asleep=tuple(line for one in asleep for line in one.internal)), reactors
 
 
 def _endless(tick: int, planner: object, reactors: list[TeleoReactor]) -> str:

@@ -392,6 +392,7 @@ class Outcome:
     open_goals: tuple[OpenGoal, ...]
     breaches: tuple[Reason, ...] = ()  # what the judge found to break the model though nothing failed
     properties: tuple[PropertyFate, ...] = ()
+    asleep: tuple[str, ...] = ()  # timelines of reactors in Python that nothing calls any more unless it asks them
     behaviour: tuple[int, ...] = ()  # what the checker found that it exercised: rules, branches, kinds of events
 
     @property

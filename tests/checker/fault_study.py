@@ -4,10 +4,12 @@
 
 A MODEL is a folder with a mission, such as those of `unseen`, and either a file with faults (`hand.toml` or, as that of
 `fault_scheme`, `faults.toml`; the file itself stands for its folder) or a folder `variants` in which each folder holds
-the files that one fault changed. A line that is gone counts as found by a cause in its rule. Flights are kept in
+the files that one fault changed. A line that is gone counts as found by a cause in its rule, or
+in its function where it is Python. Flights are kept in
 build/, so that only what is new is flown.
 """
 
+import ast
 import shutil
 import tomllib
 from argparse import ArgumentParser
@@ -153,6 +155,12 @@ def _code(failed: Sequence[MissionResult]) -> str:
 def _rule_of(models: ModelSet, file: Path, line: int) -> list[int]:
     """The lines of the rule that a line which is gone was a part of."""
     name = str(real_path(file))
+    if file.suffix == ".py":
+        found = (one for one in ast.walk(ast.parse(file.read_text())) if isinstance(one, ast.FunctionDef))
+        around = [(one.lineno, one.end_lineno or one.lineno) for one in found]
+        around = [one for one in around if one[0] <= line <= one[1]]
+        first, last = min(around, key=lambda one: one[1] - one[0], default=(line, line))
+        return list(range(first, last + 1))
     scopes = {site.scope for site in sites_in(models.agent) if site.file == name}
     around = [scope for scope in scopes if scope[0] <= line <= scope[1]]
     first, last = min(around, key=lambda one: one[1] - one[0], default=(line, line))
