@@ -4,7 +4,7 @@ A static slice: from the sampled variable through the constraints of the same ru
 It says how a draw acts inside the simulator when the conflict was found in another reactor, whose terms know no draw.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from checker.single_values import single_value
@@ -74,7 +74,7 @@ def lines_of_influence(program: Program, parameter: str) -> tuple[InfluenceLine,
         placed = list(branched_instructions(rule.body))
         body = [instruction for instruction, _ in placed]
         within = {id(instruction): branches for instruction, branches in placed}
-        tests = _tests_of(program, rule)
+        tests = _tests_of(program, rule, [guard.condition for stands in within.values() for guard, _ in stands])
         for instruction in body:
             if isinstance(instruction, Sample) and instruction.parameter == parameter:
                 found: list[Sample | Post] = [instruction, *_slice(body, instruction)]
@@ -87,10 +87,16 @@ def lines_of_influence(program: Program, parameter: str) -> tuple[InfluenceLine,
     return tuple(dict.fromkeys(lines))
 
 
-def _tests_of(program: Program, rule: RuleCode) -> dict[Operand, ArgumentCondition]:
-    """What conditions of a rule say of the arguments of its own token, by the variables that hold their truth."""
+def _tests_of(program: Program, rule: RuleCode, conditions: Iterable[Operand]) -> dict[Operand, ArgumentCondition]:
+    """What conditions of a rule say of the arguments of its own token, by the variables that hold their truth.
+
+    An argument may hold it itself: `if (careful)`.
+    """
     names = next((one.parameters for one in program.predicates if one.name == rule.predicate), ())
     found: dict[Operand, ArgumentCondition] = {}
+    for one in conditions:
+        if isinstance(one, TokenVariable) and one.token == 0 and one.variable >= FIRST_PARAMETER:
+            found[one] = ArgumentCondition(names[one.variable - FIRST_PARAMETER].name, True, is_equal=True)
     for step in all_instructions(rule.body):
         if isinstance(step, Post) and step.name in _TESTS:
             match step.operands:

@@ -56,13 +56,15 @@ class PlannerChoice:
 class _Asking:
     """The lines of a rule that say what a parameter of a child is.
 
-    It comes from the own parameters `behind`, of which those `handed` on have the same value.
+    It comes from the own parameters `behind`, of which those `handed` on have the same value. All parameters of the
+    child that are `passed` on stand with the own ones whose values they have.
     """
 
     rule: str
     lines: tuple[InfluenceLine, ...]
     behind: tuple[str, ...]
     handed: frozenset[str]
+    passed: tuple[tuple[str, str], ...] = ()
 
 
 def lines_that_ask(
@@ -72,12 +74,14 @@ def lines_that_ask(
     held: Collection[str],
     taken: Container[Branch] | None = None,
     events: Sequence[Event] = (),
+    timelines: Container[str] = (),
 ) -> tuple[InfluenceLine, ...]:
     """The lines by which an argument came to be asked for, the outermost first; none for a time.
 
     `programs` are those of the reactors by name, `held` the predicates, without their classes, of what has happened,
     `taken` the branches that were taken, if that is known: others have asked for nothing. Nor have tokens that handed
-    another value on, by `events`, where one has handed on this.
+    another value on, by `events`, where one has handed on this; nor those that handed on other arguments than the
+    request had, on one of the `timelines` that a conflict speaks of if any.
     """
     variable = _asked_variable(element)
     if variable is None or variable.token is None:
@@ -98,6 +102,9 @@ def lines_that_ask(
             for rule in (program.rules if wanted != first[0] or reactor != variable.reactor else ())
             if rule.predicate.rpartition(".")[2] in held
         ]
+        if wanted == first[0]:
+            request = _request_for(first, events, timelines)
+            asking = [one for one in asking if one.lines and _asked_so(one, request, events)] or asking
         for one in _with_value(asking, value, events):
             found |= dict.fromkeys(one.lines)
             waiting += [((one.rule, name), value if name in one.handed else None) for name in one.behind]
@@ -201,6 +208,35 @@ def _with_value(asking: Sequence[_Asking], value: float | str | None, events: Se
     return [one for one in asking if not had or not one.handed or one.rule in had]
 
 
+def _request_for(wanted: _Wanted, events: Sequence[Event], timelines: Container[str]) -> Event | None:
+    """The last request for a token with the value that is wanted."""
+    (predicate, name), value = wanted
+    asked = [
+        one
+        for one in single_events(events)
+        if one.kind is EventKind.REQUEST and one.predicate == predicate.rpartition(".")[2]
+        if value is None or single_value(dict(one.arguments).get(name)) == value
+    ]
+    return next(iter(reversed([one for one in asked if one.timeline in timelines] or asked)), None)
+
+
+def _asked_so(asking: _Asking, request: Event | None, events: Sequence[Event]) -> bool:
+    """Whether a token of a rule had all arguments that a request has from it."""
+    if request is None or not asking.passed:
+        return False
+    wanted = dict(request.arguments)
+    about = (one for one in single_events(events) if one.predicate == asking.rule.rpartition(".")[2])
+    return any(
+        all(
+            single_value(dict(one.arguments).get(own)) in (None, single_value(wanted.get(name)))
+            for name, own in asking.passed
+            if single_value(wanted.get(name)) is not None
+        )
+        for one in about
+        if one.kind in _TELLING
+    )
+
+
 def _values(asking: _Asking, events: Sequence[Event]) -> set[object]:
     """The values that tokens had, observed or asked for, of the parameters that a rule hands on."""
     wanted = asking.rule.rpartition(".")[2]
@@ -247,7 +283,27 @@ def _asking(
         for one in operands
         if isinstance(one, TokenVariable) and one.token == 0 and 0 <= one.variable - FIRST_PARAMETER < len(names)
     }
-    return _Asking(rule.predicate, tuple(lines), tuple(behind), frozenset(handed))
+    return _Asking(
+        rule.predicate, tuple(lines), tuple(behind), frozenset(handed), tuple(_passed(program, rule, predicate))
+    )
+
+
+def _passed(program: Program, rule: RuleCode, predicate: str) -> Iterator[tuple[str, str]]:
+    """The parameters that a rule hands on to its children of a predicate, each with its own, whatever the branch."""
+    children = {
+        one.slot for one in all_instructions(rule.body) if isinstance(one, Child) and one.predicate == predicate
+    }
+    theirs, own = _names(program, predicate), _names(program, rule.predicate)
+    for step, within in branched_instructions(rule.body):
+        if isinstance(step, Post) and step.name == _EQUAL and not within:
+            for one, other in (step.operands[:2], step.operands[:2][::-1]):
+                match one, other:
+                    case TokenVariable(token=child, variable=at), TokenVariable(token=0, variable=mine):
+                        places = at - FIRST_PARAMETER, mine - FIRST_PARAMETER
+                        if child in children and 0 <= places[0] < len(theirs) and 0 <= places[1] < len(own):
+                            yield theirs[places[0]], own[places[1]]
+                    case _:
+                        pass
 
 
 def _is_taken(within: Iterable[tuple[Guard, bool]], taken: Container[Branch]) -> bool:

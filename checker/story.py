@@ -97,7 +97,7 @@ def tell(
     acting = _acting(influence, outcome, until, taken, conflicts)
     draws = _draws(outcome, agent, acting, parameters, until, conflicts)
     redrawn = [] if broken is None else _draws(outcome, agent, acting, parameters, broken.tick, conflicts[-1:])
-    shown = _tokens_of(outcome, influence, parameters, until)
+    shown = _tokens_of(outcome, influence, parameters, until, conflicts)
     indices = {
         *shown,
         *sent_requests(outcome, conflict, outcome.last_tick),
@@ -171,12 +171,20 @@ def _decided_at(result: MissionResult, outcome: Outcome) -> int:
     return outcome.events[end].tick if end >= 0 else outcome.last_tick
 
 
-def _tokens_of(outcome: Outcome, influence: Influence, parameters: tuple[str, ...], until: int) -> list[int]:
+def _tokens_of(
+    outcome: Outcome, influence: Influence, parameters: tuple[str, ...], until: int, conflicts: Sequence[Conflict]
+) -> list[int]:
     """The last observations, up to a tick, of the tokens whose rules the draws act through.
 
-    There a draw shows outside its reactor.
+    There a draw shows outside its reactor. Of one that a conflict speaks of it is that on its timeline.
     """
-    last = {predicate: index for index, tick, _, predicate in heads_of(outcome.events) if tick <= until}
+    seen = {one.observed for conflict in conflicts for one in conflict.elements if one.observed is not None}
+    spoken = {predicate for predicate, _ in seen}
+    last = {
+        predicate: index
+        for index, tick, timeline, predicate in heads_of(outcome.events)
+        if tick <= until and (predicate not in spoken or (predicate, timeline) in seen)
+    }
     wanted = dict.fromkeys(line.predicate for name in parameters for line in influence.get(name, ()))
     return [last[predicate] for predicate in wanted if predicate in last]
 
@@ -217,14 +225,16 @@ def _draws(
 ) -> list[list[Step]]:
     """What was drawn, each with the lines that pass it on: that of which the conflicts speak, or the last up to a tick.
 
-    Of what is drawn for anew the last one is told as well if what it acts on still holds then.
+    Of what is drawn for anew the last one is told as well if what it acts on still holds then. A value that is in force
+    since a tick may be read for the first time later: before that it has done nothing.
     """
     by_name = {parameter.name: parameter for parameter in agent.parameters}
     spoken = dict(drawn for conflict in conflicts for drawn in conflict.drawn)
     holding = {line: predicate for _, tick, line, predicate in heads_of(outcome.events) if tick <= until}
+    read = {event.draw: event.tick for event in single_events(outcome.events) if event.draw is not None}
     found: list[list[Step]] = []
     for name in parameters:
-        drawn = [draw for draw in outcome.draws if draw.parameter == name and draw.tick <= until]
+        drawn = [one for one in outcome.draws if one.parameter == name and read.get(one, one.tick) <= until]
         told = [draw for draw in drawn if draw.value == spoken.get(name)][-1:] or drawn[-1:]
         lines = influence.get(name, ())
         place = lines[0].place if lines else _sampled_at(conflicts, name)
@@ -309,10 +319,12 @@ def _with_askers(
     held = {predicate for *_, predicate in heads_of(outcome.events)}
     events = single_events(outcome.events)
     held |= {event.predicate for event in events if event.kind is EventKind.REQUEST}
+    elements = [step.subject for step in steps if isinstance(step.subject, ConflictElement)]
+    observed = {one.observed[1] for one in elements if one.observed is not None}
     for step in steps:
         if isinstance(step.subject, ConflictElement) and text is not None:
             asking = (step.subject, text.programs, text.root, held)
-            lines = lines_that_ask(*asking, taken, outcome.events)
+            lines = lines_that_ask(*asking, taken, outcome.events, observed)
             yield from (Step(StepKind.ASKED, None, line, line.place) for line in lines)
             chosen = None if lines else who_chose(step.subject, text.programs, events, text.root)
             if chosen is not None and not lines_that_ask(*asking):
