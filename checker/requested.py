@@ -28,7 +28,7 @@ from compiler.program import (
 )
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import HALF_INF
-from runtime.executive.events import single_events
+from runtime.executive.events import events_on, single_events
 from runtime.executive.outcome import ConflictElement, ElementKind, Event, EventKind, LevelChange, SourcePlace
 from runtime.plan.readout.names import TokenName, VariableName
 
@@ -139,16 +139,25 @@ def who_chose(
 
 
 def left_open(
-    token: TokenName, tick: int, programs: Mapping[str, Program], events: Iterable[Event], root: Path
+    token: TokenName, tick: int, programs: Mapping[str, Program], events: Sequence[Event], root: Path
 ) -> Iterator[PlannerChoice]:
-    """The arguments without any bound in the last request up to `tick` for what a token holds, with who asked so."""
+    """The arguments without any bound in the last request up to `tick` for what a token holds, with who asked so.
+
+    What the owner says itself, who publishes its value, nobody needs to say.
+    """
     wanted = token.predicate.rpartition(".")[2]
-    asked = [one for one in events if one.kind is EventKind.REQUEST and one.predicate == wanted and one.tick <= tick]
+    asked = [
+        one
+        for one in single_events(events)
+        if one.kind is EventKind.REQUEST and one.predicate == wanted and one.tick <= tick
+    ]
     if not asked or (sender := programs.get(asked[-1].reactor)) is None:
         return
+    seen = [one for one in events_on(events, {asked[-1].timeline}) if one.kind is EventKind.OBSERVATION]
+    values = dict(next((one.arguments for one in reversed(seen) if one.predicate == wanted and one.tick <= tick), ()))
     for name, domain in asked[-1].arguments:
         lower, upper = domain.interval or (0, 0)
-        if lower <= -HALF_INF and upper >= HALF_INF:
+        if single_value(values.get(name)) is None and lower <= -HALF_INF and upper >= HALF_INF:
             spans = list(dict.fromkeys(_unsaid(sender, token.predicate, name)))
             place = line_of(spans[0]) if len(spans) == 1 else None
             place = place and replace(place, file=relative_name(place.file, root))

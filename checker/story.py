@@ -97,7 +97,7 @@ def tell(
     acting = _acting(influence, outcome, until, taken, conflicts)
     draws = _draws(outcome, agent, acting, parameters, until, conflicts)
     redrawn = [] if broken is None else _draws(outcome, agent, acting, parameters, broken.tick, conflicts[-1:])
-    shown = _tokens_of(outcome, influence, parameters, until, conflicts)
+    shown = _tokens_of(outcome, acting, parameters, until, conflicts)
     indices = {
         *shown,
         *sent_requests(outcome, conflict, outcome.last_tick),
@@ -198,21 +198,30 @@ def _acting(
 ) -> Influence:
     """Lines that a mission came to up to a tick, on branches that it took, and those of which its conflicts speak.
 
-    Of branches that hang on an argument it is the last token of the rule that counts: that one is told.
+    Of branches that hang on an argument it is the last token of the rule that counts: that one is told. Where a draw
+    acts through rules of which the conflicts speak, others by which it acts as well have no part in them.
     """
     begun = {predicate: index for index, tick, _, predicate in heads_of(outcome.events) if tick <= until}
     places = [one.place for conflict in conflicts for one in conflict.elements if one.place is not None]
     spoken = {(place.file, place.line) for place in places}
 
     def acts(line: InfluenceLine) -> bool:
-        if (line.place.file, line.place.line) in spoken:
+        if _is_at(line.place, spoken):
             return True
         if line.predicate not in begun or (taken is not None and any(one not in taken for one in line.branches)):
             return False
         arguments = outcome.events[begun[line.predicate]].arguments if line.tests else ()
         return not any(test.fails(arguments) for test in line.tests)
 
-    return {name: tuple(line for line in lines if acts(line)) for name, lines in influence.items()}
+    found = {name: tuple(line for line in lines if acts(line)) for name, lines in influence.items()}
+    told = {name: {one.rule for one in lines if _is_at(one.place, spoken)} for name, lines in found.items()}
+    return {
+        name: tuple(one for one in lines if one.rule in (told[name] or {one.rule})) for name, lines in found.items()
+    }
+
+
+def _is_at(place: SourcePlace, lines: Container[tuple[str, int]]) -> bool:
+    return (place.file, place.line) in lines
 
 
 def _draws(
@@ -366,7 +375,7 @@ def _with_open(steps: Sequence[Step], outcome: Outcome, text: ModelText | None) 
         reason = step.subject.reason if isinstance(step.subject, Event | Abort) else None
         if text is not None and reason is not None and reason.kind is ReasonKind.GOES_ON and reason.token is not None:
             tick = outcome.last_tick if reason.tick is None else reason.tick
-            found = left_open(reason.token, tick, text.programs, single_events(outcome.events), text.root)
+            found = left_open(reason.token, tick, text.programs, outcome.events, text.root)
             fresh = [one for one in found if one not in told]
             told.update(fresh)
             yield from (Step(StepKind.CHOSEN, None, one, one.place) for one in fresh)

@@ -20,15 +20,15 @@ pytestmark = pytest.mark.once
 UNSEEN = Path(__file__).parent / "unseen"
 
 
-def steps_of(model: str, fault: int, folder: Path) -> tuple[Step, ...]:
-    """The steps of the story of mission 1 of a model with one of its faults."""
+def steps_of(model: str, fault: int, folder: Path, mission_number: int = 1) -> tuple[Step, ...]:
+    """The steps of the story of a mission of a model with one of its faults."""
     file = UNSEEN / model / "hand.toml"
     place = laid_out(UNSEEN / model, list(faults_in(UNSEEN / model, file))[fault - 1], folder / model)
     mission, _ = read_mission(place / "mission.toml")
     assert mission is not None
     models = load_models(mission)
     campaign = Campaign(mission, models, pinned(models))
-    result = fly_one(campaign.load(models.agent), campaign.task(1))
+    result = fly_one(campaign.load(models.agent), campaign.task(mission_number))
     assert result.verdict is Verdict.FAIL
     return campaign.story(result, None).steps
 
@@ -59,3 +59,15 @@ def test_of_two_branches_that_an_argument_decides_the_one_is_told_that_the_token
     lines = [one.place.text for one in steps_of("hospital", 9, tmp_path) if one.kind is StepKind.LINE and one.place]
     assert "time == metres / pace;" in lines
     assert "time == metres / (pace * CAREFUL);" not in lines
+
+
+def test_what_the_owner_of_a_token_says_is_not_told_as_missing(tmp_path: Path) -> None:
+    chosen = [one for one in steps_of("bioreactor", 10, tmp_path) if one.kind is StepKind.CHOSEN]
+    assert chosen == []  # the incubator says at what rate it grows
+
+
+def test_rules_by_which_a_draw_acts_too_are_left_out_where_the_conflict_speaks_of_one(tmp_path: Path) -> None:
+    steps = steps_of("fire", 3, tmp_path, mission_number=3)
+    assert published(steps, {"truck", "two"}) == [(277, "truck")]
+    places = [one.place.line for one in steps if one.kind in (StepKind.DRAW, StepKind.LINE) and one.place]
+    assert places == [50, 51]  # of Truck.Charge, and not of Drone.Docked
