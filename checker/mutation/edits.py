@@ -4,11 +4,12 @@ An edit is a fault where the model was right, and a repair where it was wrong: `
 counterfactual trial the other.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from checker.mutation.agreement import Agreement
+from checker.mutation.comments import numbers_beside
 from checker.mutation.copies import copied_names, said_before
 from checker.mutation.exchanges import exchangeable, exchanged, misplaced, recast, shortened
 from checker.mutation.kinds import EditKind
@@ -47,6 +48,7 @@ from nddl_lang.text.source import Span
 
 _INFINITE = 2**52 - 1
 _NUMBERS = ("int", "float")
+_NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 _SAMPLING = "sampledParameter"
 _FACTORS = (2.0, 0.5, 10.0, 0.1)
 _RELATIONS = ("any", "contains", "contained_by", "before", "after", "meets", "met_by", "starts", "ends", "equals")
@@ -85,6 +87,7 @@ class EditSite:
     `is_apart`: the two can hardly be compared. `wanted` edits, given alike, make of a copy what it was copied for.
     `unlike` edits, given alike, write a whole number for a real one, or the other way round, unless they agree; of a
     goal, a number beyond those of the other goals, where it lies among them.
+    `noted` edits, given alike, write a number that a comment names, where it does not name the one that stands there.
     `inputs` are the numbers, each with its type, that the token of a rule brings along, told at its head.
     `coded` is the constraint of the project's own that it calls, in Python. `is_check`: a conflict shows that it only
     compares what others give.
@@ -109,6 +112,7 @@ class EditSite:
     unlike: frozenset[tuple[int, str]] = frozenset()
     inputs: tuple[tuple[str, str], ...] = ()
     is_check: bool = False
+    noted: frozenset[tuple[int, str]] = frozenset()
 
     def holds(self, file: str, line: int) -> bool:
         """Whether a place is one of its lines."""
@@ -252,6 +256,7 @@ class _Reader:
             wanted=frozenset((edit.begin, edit.new) for edit in (*edits, *more)) & self._copied,
             unlike=frozenset((edit.begin, edit.new) for edit in edits if _is_unlike(edit, names)) - agreeing,
             is_apart=isinstance(node, ExprConstraint) and self._types.is_apart(node.expression, names),
+            noted=_noted(edits, numbers_beside(node.span, whole)),
         )
 
     def _agreeing(self, node: Any, names: LineScope, edits: Iterable[SmallEdit]) -> frozenset[tuple[int, str]]:
@@ -368,6 +373,12 @@ def inverse_of(relation: str) -> str:
     """The relation that says the same with the tokens swapped; the same one where there is no other."""
     row = RELATIONS.get(relation)
     return row.inverse if row is not None and row.inverse is not None else relation
+
+
+def _noted(edits: Iterable[SmallEdit], numbers: Container[float]) -> frozenset[tuple[int, str]]:
+    """The edits that write a number of those for one that is none of them."""
+    told = [one for one in edits if one.kind in _NUMERIC and float(one.old) not in numbers]
+    return frozenset((one.begin, one.new) for one in told if float(one.new) in numbers)
 
 
 def _is_unlike(edit: SmallEdit, names: LineScope) -> bool:

@@ -239,3 +239,25 @@ def test_what_another_rule_computes_tells_what_is_meant_and_what_another_branch_
     delay = delay_of(*change(found, "time == tank.washing * drift;", EditKind.NAME, "tank.soaking"), usage)
     assert delay is not None
     assert (delay == -1.0) is is_apart  # seen without any flight
+
+
+def test_a_number_that_its_comment_names_is_likelier_meant(tmp_path: Path) -> None:
+    (tmp_path / "m.nddl").write_text(
+        "/// Twelve ticks, or more in winter.\n"
+        "int VENTING = 120;\n"
+        "int PUMPING = 120;  // 60 in summer\n"
+        "int MOVING = 120;\n"
+        "// One wafer at a time: the operator brings ten litres.\n"
+        "Lock::Refill { duration == PUMPING; gain.quantity == 1.0; }\n"
+        "class Lock extends Timeline { predicate Refill { int a; } }\n"
+    )
+    found = sites_of(load_graph(tmp_path / "m.nddl", ()))
+    noted = {site.text: {new for _, new in site.noted} for site in found if site.noted}
+    assert noted == {
+        "int VENTING = 120;": {"12"},
+        "int PUMPING = 120;": {"60"},
+        "gain.quantity == 1.0;": {"10.0"},
+    }
+    usage = usage_of(found)
+    told, other = (cost(found, usage, f"int {name} = 120;", EditKind.CONSTANT, "12") for name in ("VENTING", "MOVING"))
+    assert told < other

@@ -1,0 +1,50 @@
+"""A statement in, the numbers out that comments name beside it: in its line, right above it, and above its rule."""
+
+import re
+from collections.abc import Iterator
+
+from nddl_lang.text.source import Span
+
+_NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?")
+_WORD = re.compile(r"[a-z]+")
+_COMMENT = re.compile(r"\s*///?(.*)")
+# Without `one`, which counts nothing in `one value per mission`.
+_NAMED = {
+    "two": 2,
+    "three": 3,
+    "four": 4,
+    "five": 5,
+    "six": 6,
+    "seven": 7,
+    "eight": 8,
+    "nine": 9,
+    "ten": 10,
+    "twelve": 12,
+    "fifteen": 15,
+    "twenty": 20,
+    "thirty": 30,
+    "forty": 40,
+    "fifty": 50,
+    "sixty": 60,
+    "ninety": 90,
+    "hundred": 100,
+}
+
+
+def numbers_beside(statement: Span, whole: Span) -> frozenset[float]:
+    """The numbers that comments name which speak of a statement, or of the rule that is `whole`."""
+    lines = statement.source.text.splitlines()
+    own = lines[statement.line - 1].partition("//")[2]
+    said = [own, *_above(lines, statement.line), *_above(lines, whole.line)]
+    found = {float(one) for text in said for one in _NUMBER.findall(text)}
+    return frozenset(
+        found | {float(_NAMED[one]) for text in said for one in _WORD.findall(text.lower()) if one in _NAMED}
+    )
+
+
+def _above(lines: list[str], line: int) -> Iterator[str]:
+    """The comments that stand right above a line."""
+    at = line - 2
+    while at >= 0 and (comment := _COMMENT.fullmatch(lines[at])) is not None:
+        yield comment.group(1)
+        at -= 1
