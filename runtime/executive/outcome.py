@@ -284,11 +284,11 @@ class TimeBounds:
 class Event:
     """One thing that happened; `causes` are indices of earlier events of the same trace.
 
-    Within a tick events are in the order they happened, which is deterministic. `timeline`, `predicate` and
-    `arguments` say what is observed, asked for, refused or given up; `token` is its token in the plan of the owner (in
-    a request: of the sender), `request` the number of the request that it is about (NDDL goals: None). A request has
-    its `bounds`, a sample its `draw`, a relax its `stage`; refuse, reject, relax, kill and abort their `reason`, and
-    what the search knows of it: the `conflict`, and what was tried. `code` is that of kill, abort and end.
+    Within a tick they are in the order in which they happened. `timeline`, `predicate` and `arguments` say what is
+    observed, asked for, refused or given up; `token` is its token in the plan of the owner (in a request: of the
+    sender), `request` the number of the request that it is about (NDDL goals: None). A request has its `bounds`, a
+    sample its `draw`, a relax its `stage`; refuse, reject, relax, kill and abort their `reason`, and what the search
+    knows of it: the `conflict`, and what was tried. `code` is that of kill, abort and end.
     """
 
     tick: int
@@ -317,8 +317,7 @@ class Event:
 class Abort:
     """Why an agent stopped early. `code` is F1 to F11 of the failure taxonomy (reference of T-REX, 1.11).
 
-    `conflict` is what broke first, `deadlock` what was tried in vain; `repairs` are the conflicts that stopped each
-    repair stage after it.
+    `conflict` is what broke first, `deadlock` what was tried in vain; `repairs` stopped each repair stage after it.
     """
 
     code: str
@@ -392,7 +391,7 @@ class Outcome:
     open_goals: tuple[OpenGoal, ...]
     breaches: tuple[Reason, ...] = ()  # what the judge found to break the model though nothing failed
     properties: tuple[PropertyFate, ...] = ()
-    asleep: tuple[str, ...] = ()  # timelines of reactors in Python that nothing calls any more unless it asks them
+    asleep: tuple[str, ...] = ()  # timelines of reactors in Python that nothing calls any more
     behaviour: tuple[int, ...] = ()  # what the checker found that it exercised: rules, branches, kinds of events
 
     @property
