@@ -46,7 +46,7 @@ class Goals:
         return bool(self.to_recall or [request for request in self.waiting if request.start[0] <= reach])
 
     def take_in(self, tick: int, reach: int) -> bool:
-        """Carry out recalls, and post what may start by `reach`, earliest first; whether the plan has changed."""
+        """Carry out recalls, and post what may start by `reach`, as it was asked; whether the plan has changed."""
         self.is_changed = False
         if self.to_recall:
             numbers, self.to_recall = self.to_recall, []
@@ -55,9 +55,8 @@ class Goals:
         if self.has_news(reach):
             due = [request for request in self.waiting if request.start[0] <= reach]
             self.waiting = [request for request in self.waiting if request.start[0] > reach]
-            earliest = [(max(request.start[0], tick + 1), place) for place, request in enumerate(due)]
-            for _, place in sorted(earliest):
-                self._post(due[place], tick)
+            for request in due:
+                self._post(request, tick)
         return self.is_changed
 
     def _post(self, request: Request, tick: int) -> None:
