@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import redirect_stdout
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +26,7 @@ from runtime.plan.readout.level_profile import LevelProfile, level_profiles
 from runtime.plan.readout.open_levels import open_levels
 from runtime.plan.readout.readout import live_tokens, read_state, span_of, token_names
 from runtime.plan.tags import FLAG_GOAL, FLAG_REJECTABLE, REJECTED
-from runtime.solver.configuration.configuration import Configuration, default_configuration
+from runtime.solver.configuration.configuration import Configuration, FlawFilter, default_configuration
 from runtime.solver.configuration.limits import Limits, model_limits
 from runtime.solver.configuration.read import read_configuration
 from runtime.solver.flaws.relief import may_be_relieved
@@ -113,6 +114,8 @@ def command(
     configuration = _configuration(config)
     if horizon is not None and horizon[0] >= horizon[1]:
         raise Unusable(f"the horizon from {horizon[0]} to {horizon[1]} is empty")
+    if horizon is not None:
+        configuration = _within_horizon(configuration)
     settings = configured(path)
     library = library_for(path, settings, is_trusted=is_trusted)
     way = read_by(ctx, path, directories, dialect)
@@ -250,6 +253,13 @@ def _configuration(name: str | None) -> Configuration:
     if configuration is None:
         raise Unusable(f"`{name}` is no usable configuration")
     return configuration
+
+
+def _within_horizon(configuration: Configuration) -> Configuration:
+    """The same for what lies in the horizon alone, where the file has no filter for that: in flight none needs one."""
+    if any(each.component == "HorizonFilter" for each in configuration.filters):
+        return configuration
+    return replace(configuration, filters=(FlawFilter("HorizonFilter"), *configuration.filters))
 
 
 def _limits(database: PlanDatabase, horizon: tuple[int, int] | None, steps: int | None, depth: int | None) -> Limits:

@@ -84,3 +84,22 @@ def test_an_agent_file_of_t_rex_is_a_mission_file(
         ["explain", "agent.xml#1", "--flights", "0"],
     ):
         assert run(command) == 0, (command, capsys.readouterr().err)
+
+
+def test_a_solver_without_a_filter_plans_what_lies_in_the_mission(tmp_path: Path, capsys: Captured) -> None:
+    """Day and night ask for each other: beyond the final tick there is no end of them."""
+    (tmp_path / "sun.nddl").write_text(
+        '#include "TREX.nddl"\nclass Sun extends AgentTimeline {\n'
+        '  predicate Day { } predicate Night { } Sun(Mode m) { super(m, "Day"); }\n}\n'
+        "Sun::Day { duration == 20; meets(object.Night n); }\nSun::Night { duration == 10; meets(object.Day d); }\n"
+        "Sun sun = new Sun(Internal);\nclose();\n"
+    )
+    managers = ("ThreatManager", "OpenConditionManager", "UnboundVariableManager")
+    (tmp_path / "solver.toml").write_text("".join(f'[[manager]]\ncomponent = "{one}"\n' for one in managers))
+    (tmp_path / "mission.toml").write_text(
+        '[mission]\nname = "sun"\nfinal_tick = 100\n[[reactor]]\nname = "sun"\nmodel = "sun.nddl"\nlookahead = 100\n'
+        'internal = ["sun"]\nsolver = "solver.toml"\n[[goal]]\ntimeline = "sun"\npredicate = "Day"\nstart = [5, 9]\n'
+    )
+    for words in ([], ["--horizon", "0", "50"]):
+        assert run(["plan", str(tmp_path / "mission.toml"), *words, "--max-steps", "5000"]) == 0
+        assert "plan found after " in capsys.readouterr().out
