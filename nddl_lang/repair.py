@@ -25,6 +25,7 @@ from nddl_lang.text.source import Anchor, Source, Span
 _MOST_ERRORS = 12  # of a model that was meant to be another one by one small edit
 _MOST_LINES = 3  # that are searched
 _MOST_CHARACTERS = 200_000  # that are parsed in trials
+_LONGEST = 20_000  # characters of a statement that is tried at all
 _MOST_STATEMENTS = 40_000  # that are looked at in trials
 _MOST_WORDS = 20_000  # among which a misspelt one is looked for
 _FARTHEST = 20  # lexemes from the error
@@ -178,6 +179,8 @@ class _Trials:
             if parse is None or place < 0:
                 continue
             piece = parse.pieces[place]
+            if piece.length > _LONGEST:
+                continue
             first, row = _row(piece, source, line, error.span)
             if not row.kinds:
                 continue
@@ -203,7 +206,7 @@ class _Trials:
         begin = pieces[0].anchor.offset
         end = pieces[-1].anchor.offset + pieces[-1].length
         self._characters += end - begin
-        if self.are_spent:
+        if self.are_spent or end - begin > _LONGEST:
             return False
         text = TokenEdit(0, edits).applied(source.text[begin:end], begin)
         tried = parse_block(Source(source.name, text), self._loaded.dialect, TOP, len(text))

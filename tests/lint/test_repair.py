@@ -104,6 +104,12 @@ def test_what_stands_in_a_neighbouring_file_takes_no_repair() -> None:
     assert repaired(analysis).diagnostics == analysis.diagnostics
 
 
+def test_nothing_is_tried_in_a_statement_of_many_characters() -> None:
+    analysis = analyse_text("model.nddl", "int x =" + " " * 100_000 + "= 3;\n")
+    assert analysis.has_errors
+    assert not list(repair(analysis))[1:]
+
+
 @pytest.mark.parametrize("count", [1, 40])
 def test_trials_are_counted_so_that_a_long_rule_ends(count: int) -> None:
     body = "    scan.pings >= 0.5 * length;\n" * 1000
