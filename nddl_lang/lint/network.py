@@ -27,7 +27,16 @@ class Edge:
 
 
 def negative_cycle(edges: Sequence[Edge]) -> list[Edge]:
-    """The edges of a cycle with a negative sum, in order; none where all distances can hold together."""
+    """The edges of a cycle with a negative sum, in order; none where all distances can hold together.
+
+    Of several edges between two times the tightest counts, of equal ones the first.
+    """
+    tightest: dict[tuple[Node, Node], Edge] = {}
+    for edge in edges:
+        known = tightest.get((edge.earlier, edge.later))
+        if known is None or edge.weight < known.weight:
+            tightest[edge.earlier, edge.later] = edge
+    edges = list(tightest.values())
     distance: dict[Node, float] = {}
     before: dict[Node, Edge] = {}
     for edge in edges:

@@ -22,7 +22,7 @@ from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 
 _NAME = re.compile(r"[A-Za-z_$][A-Za-z0-9_$]*")
-_HYPHENATED = re.compile(r"[A-Za-z_$][\w$]*(?:-[\w$]+)+")
+_HYPHENATED = re.compile(r"(?<![\w$])[A-Za-z_$][\w$]*(?:-[\w$]+)+")
 
 
 @dataclass(eq=False, slots=True)

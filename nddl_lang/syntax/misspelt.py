@@ -12,6 +12,7 @@ _SHORT = 3
 _TIMES = {"starts": "start", "ends": "end"}
 _COMPARES = frozenset(("==", "!=", "<", "<=", ">", ">="))
 _BEFORE_TIME = _COMPARES | {".", "+", "-", "*", "/"}
+_MOST_LEXEMES = 400  # of a statement up to a mistake
 _REMEMBERED = 256  # answers: one mistake may stand in thousands of lines
 
 
@@ -37,8 +38,11 @@ def meant_word(
     """The lexeme that should be a word of the language, and that word, None for some relation or kind of goal.
 
     `states` are those of the parser before the statement that begins at the lexeme `first` and cannot go on with the
-    lexeme `index`. With the word in its place the parser gets beyond the lexeme after that.
+    lexeme `index`. With the word in its place the parser gets beyond the lexeme after that. A statement of very many
+    lexemes is not looked through: the parser would read it anew for each.
     """
+    if index - first > _MOST_LEXEMES:
+        return None
     for at in dict.fromkeys((index, index - 1, index - 2, first)):
         if at < first or kinds[at] != "IDENT":
             continue

@@ -13,6 +13,8 @@ MISSION = (BLANK / "mission.toml").read_text(encoding="utf-8")
 
 MODELS: dict[str, str | bytes] = {
     "paths": "int a = " + ".".join("a" * 5000) + ";\n",
+    "two dots": TIMELINE + "A::p { n == " + "..".join(["object"] * 3000) + "; }\n",
+    "a text beside a text": 'string s = "' + "x" * 10**5 + '" "y";\n',
     "calls in calls": "float a = " + "abs(" * 5000 + "1.0" + ")" * 5000 + ";\n",
     "powers": "float a = pow(10.0, pow(10.0, pow(10.0, 10.0)));\n",
     "roots of nothing": "float a = sqrt(-1.0); float b = log(0.0); float c = asin(7.0); float d = tan(1e300);\n",
