@@ -50,6 +50,9 @@ NO_THREATS = Code(
 NO_CLASS = Code("NDDL736", Severity.ERROR, "name", "{where} has no class `{name}`")
 NO_LOG = Code("NDDL737", Severity.ERROR, "rule", "`{path}` cannot be played: {problem}")
 NO_MATCH = Code("NDDL738", Severity.WARNING, "name", "no model that is planned with this file has a {what} `{name}`")
+RESOURCES_FIRST = Code(
+    "NDDL739", Severity.INFO, "rule", "uses of resources are ordered before {what}: such a search may have no end"
+)
 NO_REQUESTS = Code(
     "NDDL734", Severity.WARNING, "rule", "`{timeline}` takes no requests: its owner `{owner}` has a lookahead of 0"
 )

@@ -27,6 +27,7 @@ from checker.codes import (
     OTHER_ROLE,
     OUT_OF_RANGE,
     OUT_OF_TIME,
+    RESOURCES_FIRST,
     REVERSED,
     SINGLE_LEVEL,
     TWICE,
@@ -317,6 +318,18 @@ MISSION_PAGES = (
         "It matches nothing, so that the solver takes its default.",
         '[[manager]]\ncomponent = "OpenConditionManager"\n[[manager.handler]]\nclass = "Naw"\npriority = 10\n',
         '[[manager]]\ncomponent = "OpenConditionManager"\n[[manager.handler]]\nclass = "Nav"\npriority = 10\n',
+        "toml",
+    ),
+    RulePage(
+        RESOURCES_FIRST,
+        "The `ResourceThreatManager` of a solver's file decides before tokens are found and have their places.",
+        "Of managers of equal priority the first in the file decides first, as in EUROPA. Each pair of uses is ordered "
+        "then, most of which the order of the tokens settles anyway; where no plan exists the search goes through all "
+        "of these orders before it comes to the choice that is at fault.",
+        '[[manager]]\ncomponent = "ResourceThreatManager"\n[[manager]]\ncomponent = "ThreatManager"\n[[manager]]\n'
+        'component = "OpenConditionManager"\n',
+        '[[manager]]\ncomponent = "ThreatManager"\n[[manager]]\ncomponent = "OpenConditionManager"\n[[manager]]\n'
+        'component = "ResourceThreatManager"\n',
         "toml",
     ),
     RulePage(

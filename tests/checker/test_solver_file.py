@@ -101,3 +101,42 @@ def test_python_that_a_mission_names_is_not_run_for_its_solver(folder: Path) -> 
     (folder / "a.toml").write_text(named)
     assert in_editor(folder, solver(predicate="Goo")) == []
     assert not (folder / "mark").exists()
+
+
+ORDERED = """\
+[[manager]]
+component = "{}"
+default_priority = {}
+[[manager]]
+component = "{}"
+default_priority = {}
+[[manager]]
+component = "{}"
+default_priority = {}
+"""
+RESOURCES, TOKENS, CONDITIONS = "ResourceThreatManager", "ThreatManager", "OpenConditionManager"
+
+
+@pytest.mark.parametrize(
+    ("managers", "behind"),
+    [
+        ((RESOURCES, 0, TOKENS, 0, CONDITIONS, 0), "`ThreatManager` and `OpenConditionManager`"),
+        ((TOKENS, 0, RESOURCES, 0, CONDITIONS, 0), "`OpenConditionManager`"),
+        ((TOKENS, 0, CONDITIONS, 0, RESOURCES, 0), ""),
+        ((RESOURCES, 5, TOKENS, 0, CONDITIONS, 0), ""),
+        ((TOKENS, 5, CONDITIONS, 0, RESOURCES, 2), "`ThreatManager`"),
+    ],
+)
+def test_resources_that_are_ordered_before_tokens_are_told(
+    folder: Path, managers: tuple[str | int, ...], behind: str
+) -> None:
+    text = ORDERED.format(*managers)
+    (folder / "planner.toml").write_text(text)
+    assert in_editor(folder, text) == []  # its models have no resources
+    power = "class Power extends Reusable { Power() { super(5.0, 0.0); } }\nPower power = new Power();\nclose();\n"
+    (folder / "rover.nddl").write_text(MODEL.replace("close();\n", power))
+    found = in_editor(folder, text)
+    assert [each.code.id for each in found] == ["NDDL739"] * bool(behind)
+    for each in found:
+        assert each.help is not None and f"put it behind {behind};" in each.help
+        assert each.span.text == f'component = "{RESOURCES}"'

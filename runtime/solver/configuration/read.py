@@ -82,6 +82,17 @@ def written_matches(source: Source) -> Iterator[dict[str, Attribute]]:
             yield {field: attribute for field, attribute in found if attribute is not None}
 
 
+def written_managers(source: Source) -> Iterator[tuple[FlawManager, Span]]:
+    """The managers of a configuration that can be used, each with the place of its name."""
+    root, _ = _elements(source)
+    configuration, _ = read_configuration(source)
+    if root is None or configuration is None:
+        return
+    elements = (child for child in root.children if child.tag != "FlawFilter")
+    for manager, element in zip(configuration.managers, elements, strict=True):
+        yield manager, (element.find("component") or element).span
+
+
 def _elements(source: Source) -> tuple[Element | None, list[Diagnostic]]:
     return read_toml(source) if source.name.endswith(".toml") else read_xml(source)
 
