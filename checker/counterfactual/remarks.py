@@ -16,6 +16,8 @@ from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Span
 from runtime.executive.outcome import SourcePlace
 
+_NAME = re.compile(r"[A-Za-z_]\w*")
+
 
 @dataclass(frozen=True, slots=True)
 class Remark:
@@ -48,11 +50,17 @@ def remarks_of(findings: Sequence[Diagnostic], root: Path) -> tuple[Remark, ...]
 
 
 def with_remarks(candidates: Sequence[Candidate], findings: Sequence[Diagnostic]) -> list[Candidate]:
-    """The candidates, those marked that lint warns of: lines of rules, not what is declared and not used."""
-    lines = {(_file(span), span.line) for finding in findings for span in _spans(finding)}
+    """The candidates, those marked that lint warns of: lines of rules, and constants that such a line names.
+
+    What is declared and not used is not marked.
+    """
+    spans = [span for finding in findings for span in _spans(finding)]
+    lines = {(_file(span), span.line) for span in spans}
+    named = {word for span in spans for word in _NAME.findall(span.text)}
 
     def is_linted(one: Candidate) -> bool:
-        return bool(one.site.rule) and any(one.site.holds(file, line) for file, line in lines)
+        stands_there = any(one.site.holds(file, line) for file, line in lines)
+        return stands_there if one.site.rule else one.site.named in named and not stands_there
 
     return [replace(one, is_linted=True) if is_linted(one) else one for one in candidates]
 

@@ -2,11 +2,9 @@
 
 from typing import NamedTuple
 
-from runtime.executive.outcome import EventKind, Phase
 from runtime.executive.trace import Trace
+from runtime.user.log_player import is_done_by_others
 from runtime.user.reactor import Asked, Now, Turn
-
-_THEN = (Phase.DELIBERATE, Phase.DISPATCH)
 
 
 class Said(NamedTuple):
@@ -39,11 +37,3 @@ def is_due(said: Said, trace: Trace, name: str) -> bool:
             break
         count += is_done_by_others(name, event.reactor, event.kind, event.phase)
     return count >= said.others
-
-
-def is_done_by_others(name: str, reactor: str, kind: str, phase: str) -> bool:
-    """Whether an event of a tick counts as one of others than the reactor of a name, in its deliberation.
-
-    Draws do not: who is the first to read a value tells it.
-    """
-    return reactor not in ("", name) and phase in _THEN and kind != EventKind.SAMPLE

@@ -5,9 +5,11 @@ from pathlib import Path
 from typing import Any
 
 from nddl_lang.text.values import json_value
-from runtime.executive.turns import is_done_by_others
+from runtime.executive.outcome import EventKind, Phase
 from runtime.user.reactor import Argument, Now, Reactor, Ticks, Value
 from runtime.user.transaction_log import SUFFIX, read_transaction_log
+
+_THEN = (Phase.DELIBERATE, Phase.DISPATCH)
 
 
 class LogPlayer(Reactor):
@@ -84,3 +86,11 @@ def _is_number(value: Any) -> bool:
 def _ticks(bounds: list[Any]) -> Ticks:
     low, high = (None if isinstance(bound, str) else int(bound) for bound in bounds)
     return (-(2**52) + 1 if low is None else low, 2**52 - 1 if high is None else high)
+
+
+def is_done_by_others(name: str, reactor: str, kind: str, phase: str) -> bool:
+    """Whether an event of a tick counts as one of others than the reactor of a name, in its deliberation.
+
+    Draws do not: who is the first to read a value tells it.
+    """
+    return reactor not in ("", name) and phase in _THEN and kind != EventKind.SAMPLE

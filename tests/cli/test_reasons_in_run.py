@@ -62,8 +62,10 @@ def kitchen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.usefixtures("kitchen")
 def test_what_lint_warns_of_is_told_before_a_flight(capsys: pytest.CaptureFixture[str]) -> None:
     told = (
-        "1 warning about these models (`nddlc lint` shows them in full):\n"
+        "2 warnings about these models (`nddlc lint` shows them in full):\n"
         "  kitchen.nddl:12:5: `power` takes 140.0 of `bus`, which has 50.0 [NDDL560]\n"
+        "  mission.toml:15:7: this goal can never be achieved: "
+        "it ends by tick 15, and cannot before tick 21 [NDDL720]\n"
     )
     assert run(["run", "--until", "1"]) == 1
     assert told in capsys.readouterr().err
