@@ -4,18 +4,13 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch.worker import fly_one
-from checker.campaign import Campaign
 from checker.causes import failed_by
 from checker.counterfactual.python_ways import asleep_in
 from checker.counterfactual.ranking import Causes, Claim, RankedLine
 from checker.counterfactual.rendering import cause_text
-from checker.mission import read_mission
-from checker.models import load_models
-from checker.oracle import Verdict
-from checker.pinned import pinned
 from runtime.executive.outcome import SourcePlace
 from tests.checker.fault_study import faults_in, laid_out
+from tests.checker.told_steps import failed_mission
 
 pytestmark = pytest.mark.once
 
@@ -26,14 +21,10 @@ WITHOUT_WAKE, TOO_SLOW = 4, 3  # the faults: its `now.wake` is gone; its speed i
 @pytest.mark.parametrize("number", [WITHOUT_WAKE, TOO_SLOW])
 def test_who_is_never_called_again_is_told_from_who_takes_long(number: int, tmp_path: Path) -> None:
     place = laid_out(CRAWLER, list(faults_in(CRAWLER))[number], tmp_path / "crawler")
-    mission, _ = read_mission(place / "mission.toml")
-    assert mission is not None
-    models = load_models(mission)
-    given = Campaign(mission, models, pinned(models))
-    failed = fly_one(given.load(models.agent), given.task(1))
-    assert failed.verdict is Verdict.FAIL and failed.outcome is not None
+    given, failed = failed_mission(place, 1)
+    assert failed.outcome is not None
     conflict = failed_by(failed.outcome).conflict
-    found = [(name, one.file, one.text) for name, one in asleep_in(failed.outcome, conflict, models.agent)]
+    found = [(name, one.file, one.text) for name, one in asleep_in(failed.outcome, conflict, given.models.agent)]
     publishing = 'now.publish("tracks", "Drive", to=self.goal)'
     assert found == ([("tracks", "tracks.py", publishing)] if number == WITHOUT_WAKE else [])
 

@@ -4,17 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch.worker import fly_one
-from checker.campaign import Campaign
 from checker.contrast import Contrast, Difference
-from checker.mission import read_mission
-from checker.models import load_models
-from checker.oracle import Verdict
-from checker.pinned import pinned
 from checker.steps import StepKind
 from runtime.executive.outcome import Draw, Event, EventKind
 from tests.checker.fault_study import faults_in, laid_out
-from tests.checker.told_steps import JOB_MISSION, steps_of
+from tests.checker.told_steps import JOB_MISSION, failed_mission, steps_of
 
 pytestmark = pytest.mark.once
 
@@ -67,12 +61,7 @@ def test_each_draw_stands_before_what_came_of_it(tmp_path: Path, number: int) ->
 
 def test_each_draw_is_told_that_sets_the_mission_apart(tmp_path: Path) -> None:
     place = laid_out(DEPOT, list(faults_in(DEPOT))[TOO_LITTLE_TIME], tmp_path / "depot")
-    mission, _ = read_mission(place / "mission.toml")
-    assert mission is not None
-    models = load_models(mission)
-    campaign = Campaign(mission, models, pinned(models))
-    result = fly_one(campaign.load(models.agent), campaign.task(LONG_WASH))
-    assert result.verdict is Verdict.FAIL
+    campaign, result = failed_mission(place, LONG_WASH)
     apart = Contrast(18, (Difference("CURRENT", 1.4, 1.1), Difference("DIRT", 1.4, 0.9)), True, 4, (), 0)
     told = []
     for contrast in (None, apart):

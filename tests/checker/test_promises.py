@@ -5,16 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch.worker import fly_one
-from checker.campaign import Campaign
-from checker.mission import read_mission
-from checker.models import load_models
-from checker.oracle import Verdict
-from checker.pinned import pinned
 from checker.single_values import single_value
 from checker.told_events import promised_events
 from nddlc.main import run
 from tests.checker.fault_study import faults_in, laid_out
+from tests.checker.told_steps import failed_mission
 
 pytestmark = pytest.mark.once
 
@@ -45,13 +40,9 @@ def test_the_story_of_a_property_tells_what_was_asked_for_and_refused(
 
 def test_requests_that_could_not_keep_the_promise_any_more_are_not_told_in_place_of_the_refusal(tmp_path: Path) -> None:
     place = laid_out(DEPOT, next(faults_in(DEPOT)), tmp_path / "depot")
-    mission, _ = read_mission(place / "mission.toml")
-    assert mission is not None
-    models = load_models(mission)
-    given = Campaign(mission, models, pinned(models))
-    result = fly_one(given.load(models.agent), given.task(LATE))
-    assert result.verdict is Verdict.FAIL and result.outcome is not None
-    told = promised_events(result, result.outcome, models.agent)
+    given, result = failed_mission(place, LATE)
+    assert result.outcome is not None
+    told = promised_events(result, result.outcome, given.models.agent)
     numbers = [single_value(dict(one.arguments)["tram"]) for one in told]
     assert [(one.tick, str(one.kind)) for one in told] == [
         (302, "observation"),

@@ -4,16 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch.worker import fly_one
-from checker.campaign import Campaign
 from checker.counterfactual.time_spent import time_spent
-from checker.mission import read_mission
-from checker.models import load_models
-from checker.oracle import Verdict
-from checker.pinned import pinned
 from runtime.executive.outcome import Outcome
 from tests.checker.checked import faults_of
 from tests.checker.fault_study import faults_in, laid_out
+from tests.checker.told_steps import failed_mission
 
 pytestmark = pytest.mark.once
 
@@ -23,12 +18,8 @@ VENTING, QUEUE_MAX = 3, 6  # 120 for 12; 160 for 300
 
 def flown(number: int, folder: Path) -> Outcome:
     place = laid_out(FAB, list(faults_in(FAB))[number], folder / "fab")
-    mission, _ = read_mission(place / "mission.toml")
-    assert mission is not None
-    models = load_models(mission)
-    given = Campaign(mission, models, pinned(models))
-    result = fly_one(given.load(models.agent), given.task(1))
-    assert result.verdict is Verdict.FAIL and result.outcome is not None
+    _, result = failed_mission(place, 1)
+    assert result.outcome is not None
     return result.outcome
 
 

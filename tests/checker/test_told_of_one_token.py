@@ -4,19 +4,14 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch.worker import fly_one
 from checker.buckets import group_failures
-from checker.campaign import Campaign
 from checker.conditions.condition import Condition, Literal, Share, axis_feature
 from checker.findings import Fault
 from checker.influence import ArgumentCondition
-from checker.mission import read_mission
-from checker.models import load_models
-from checker.oracle import Verdict
-from checker.pinned import pinned
 from checker.steps import Step, StepKind
 from compiler.program import DomainConstant
 from tests.checker.fault_study import faults_in, laid_out
+from tests.checker.told_steps import failed_mission
 
 pytestmark = pytest.mark.once
 
@@ -27,12 +22,7 @@ TOO_SHORT, FAILING = 3, 9  # the fault `TRIP_MAX = 110`, and a mission that a cr
 @pytest.fixture(scope="module")
 def steps(tmp_path_factory: pytest.TempPathFactory) -> tuple[Step, ...]:
     place = laid_out(FERRY, list(faults_in(FERRY))[TOO_SHORT], tmp_path_factory.mktemp("ferry") / "short")
-    mission, _ = read_mission(place / "mission.toml")
-    assert mission is not None
-    models = load_models(mission)
-    given = Campaign(mission, models, pinned(models))
-    failed = fly_one(given.load(models.agent), given.task(FAILING))
-    assert failed.verdict is Verdict.FAIL
+    given, failed = failed_mission(place, FAILING)
     (bucket,) = group_failures((failed,))
     share = Share(1.0, (0.0, 1.0))
     condition = Condition(((Literal(axis_feature("STREAM"), True, 0.2),),), share, share, 1, None, 0)

@@ -279,32 +279,25 @@ IN_A_SOLVER = [
 def test_misspelt_words_of_a_mission_file_are_mended_by_quick_fixes_only(client: Any, tmp_path: Path) -> None:
     shutil.copytree(ROOT / "tests" / "checker" / "unseen" / "canal", tmp_path / "canal")
     path = tmp_path / "canal" / "mission.toml"
-    right = path.read_text()
-    uri = path.as_uri()
-    client.start(folder=path.parent)
-    client.open(uri, right)
-    for mistake in IN_A_MISSION:
-        text = broken(right, mistake)
-        (error, *_) = client.change(uri, {"text": text})["diagnostics"]
-        actions = client.ask(
-            "textDocument/codeAction", textDocument={"uri": uri}, range=error["range"], context={"diagnostics": [error]}
-        )
-        assert [mended(text, each["edit"]["changes"][uri]) for each in actions] == [right], mistake
+    mend_each(client, path, path.read_text(), IN_A_MISSION)
 
 
 def test_misspelt_words_of_a_solver_are_mended_by_quick_fixes_only(client: Any, tmp_path: Path) -> None:
-    path = tmp_path / "solver.toml"
+    mend_each(client, tmp_path / "solver.toml", SOLVER, IN_A_SOLVER)
+
+
+def mend_each(client: Any, path: Path, right: str, mistakes: list[tuple[str, str]]) -> None:
+    """Make one mistake after the other in a right text: what is told first has the one fix that makes it right."""
     uri = path.as_uri()
     client.start(folder=path.parent)
-    client.open(uri, SOLVER)
-    for mistake in IN_A_SOLVER:
-        text = broken(SOLVER, mistake)
+    client.open(uri, right)
+    for mistake in mistakes:
+        text = broken(right, mistake)
         (told, *_) = client.change(uri, {"text": text})["diagnostics"]
         actions = client.ask(
             "textDocument/codeAction", textDocument={"uri": uri}, range=told["range"], context={"diagnostics": [told]}
         )
-        of_one = [each for each in actions if each["kind"] == "quickfix"]
-        assert [mended(text, each["edit"]["changes"][uri]) for each in of_one] == [SOLVER], mistake
+        assert [mended(text, each["edit"]["changes"][uri]) for each in actions] == [right], mistake
 
 
 def test_all_misspelt_keys_of_a_mission_file_are_mended_at_once(client: Any, tmp_path: Path) -> None:
