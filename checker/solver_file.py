@@ -6,9 +6,9 @@ from pathlib import Path
 
 from checker.mission import Mission, parse_mission
 from checker.models import load_models
-from nddl_lang.mission_suffixes import MISSION_HEAD
+from nddl_lang.mission_suffixes import mission_text
 from nddl_lang.text.diagnostic import Diagnostic
-from nddl_lang.text.read import LARGEST, read_text, real_path
+from nddl_lang.text.read import read_text, real_path
 from nddl_lang.text.source import Source
 from runtime.solver.configuration.read import read_configuration
 
@@ -40,11 +40,10 @@ def examine_solver(source: Source, root: Path) -> tuple[Diagnostic, ...]:
 def _missions_with(solver: Path, root: Path) -> Iterator[Mission]:
     """The missions in a folder whose reactors plan with that file, as far as they can be read."""
     for path in sorted(root.glob("*.toml")):
-        try:
-            text = read_text(path) if path.is_file() and path.stat().st_size <= LARGEST else None
-        except OSError:
-            continue
-        if text is None or solver.name not in text or MISSION_HEAD.search(text) is None:
+        text = None
+        with suppress(OSError):
+            text = mission_text(path)
+        if text is None or solver.name not in text:
             continue
         mission, _ = parse_mission(Source(str(path), text), root)
         if mission is None or mission.agent.constraints:

@@ -13,7 +13,7 @@ import click
 
 from nddl_lang.lint.configuration import find_configuration, read_configuration
 from nddl_lang.lint.settings import Settings
-from nddl_lang.mission_suffixes import MISSION_HEAD, MISSION_SUFFIXES
+from nddl_lang.mission_suffixes import MISSION_SUFFIXES, mission_text
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.roots import parts_of, roots_among
 from nddl_lang.text.nearest import nearest
@@ -105,8 +105,8 @@ def missions_below(names: tuple[str, ...]) -> list[Path]:
     found: list[Path] = []
     for name in names:
         for path in sorted(Path(name).rglob("*.toml")) if Path(name).is_dir() else ():
-            is_read = _is_model(path, path.relative_to(name)) and path.is_file() and path.stat().st_size <= LARGEST
-            if is_read and real_path(path) not in known and MISSION_HEAD.search(path.read_text("utf-8", "replace")):
+            is_asked = _is_model(path, path.relative_to(name)) and path.is_file() and real_path(path) not in known
+            if is_asked and mission_text(path) is not None:
                 found.append(path)
     return found
 

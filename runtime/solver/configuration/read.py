@@ -61,13 +61,19 @@ _HANDLER_ATTRIBUTES = {
 
 def read_configuration(source: Source) -> tuple[Configuration | None, tuple[Diagnostic, ...]]:
     """The configuration that `source` holds, TOML if its name ends so and XML otherwise, or None with an error."""
+    _, configuration, complaints = _read(source)
+    return configuration, complaints
+
+
+def _read(source: Source) -> tuple[Element | None, Configuration | None, tuple[Diagnostic, ...]]:
+    """The same, with what is written."""
     root, complaints = _elements(source)
     if root is None:
-        return None, tuple(complaints)
+        return None, None, tuple(complaints)
     reading = _Reading(complaints, is_toml=source.name.endswith(".toml"))
     configuration = reading.solver(root)
     refused = any(complaint.severity is Severity.ERROR for complaint in reading.complaints)
-    return None if refused else configuration, tuple(reading.complaints)
+    return root, None if refused else configuration, tuple(reading.complaints)
 
 
 def written_matches(source: Source) -> Iterator[dict[str, Attribute]]:
@@ -84,8 +90,7 @@ def written_matches(source: Source) -> Iterator[dict[str, Attribute]]:
 
 def written_managers(source: Source) -> Iterator[tuple[FlawManager, Span]]:
     """The managers of a configuration that can be used, each with the place of its name."""
-    root, _ = _elements(source)
-    configuration, _ = read_configuration(source)
+    root, configuration, _ = _read(source)
     if root is None or configuration is None:
         return
     elements = (child for child in root.children if child.tag != "FlawFilter")
