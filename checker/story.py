@@ -92,6 +92,7 @@ def tell(
     conflicts = [one for one in (conflict, broken.conflict if broken is not None else None) if one is not None]
     confirmation = _confirmed(result, conflict, fault, text)
     levels = _levels(result, text)
+    changes = [[Step(StepKind.LEVEL, one.tick, one, next(iter(places), None))] for one, places in levels]
     drawn = _drawn_at(influence, (place for _, places in levels for place in places))
     parameters = tuple(dict.fromkeys((*suspects(outcome, fault, first), *decisive, *drawn)))
     until = _decided_at(result, outcome)
@@ -115,7 +116,7 @@ def tell(
     dead = failed_owner(result.judgement, outcome)
     way = sorted([*way, *dead, *promised_events(result, outcome, agent)], key=lambda event: event.tick)
     steps = [
-        *in_time([*redrawn, *draws], _with_levels(_events(way, broken, outcome, text, taken), levels)),
+        *in_time([*redrawn, *draws], in_time(changes, _events(way, broken, outcome, text, taken), is_behind=True)),
         *_with_askers(_conflict(conflict, confirmation), outcome, text, taken),
         *_tried(failed),
         *(Step(StepKind.WAITING, None, one) for one in waited_for(outcome, agent)),
@@ -236,18 +237,6 @@ def _with_askers(
             if chosen is not None and not lines_that_ask(*asking):
                 yield Step(StepKind.CHOSEN, None, chosen, chosen.place)
         yield step
-
-
-def _with_levels(
-    events: Iterable[Step], levels: Sequence[tuple[LevelChange, tuple[SourcePlace, ...]]]
-) -> Iterator[Step]:
-    """The steps, with each change of a level behind what came until its tick."""
-    left = [Step(StepKind.LEVEL, one.tick, one, next(iter(places), None)) for one, places in levels]
-    for event in events:
-        while left and event.tick is not None and (left[0].tick or 0) < event.tick:
-            yield left.pop(0)
-        yield event
-    yield from left
 
 
 def _levels(result: MissionResult, text: ModelText | None) -> list[tuple[LevelChange, tuple[SourcePlace, ...]]]:

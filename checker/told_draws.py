@@ -102,11 +102,14 @@ def _sampled_at(conflicts: Sequence[Conflict], name: str) -> SourcePlace | None:
     return None
 
 
-def in_time(draws: Sequence[list[Step]], events: Iterable[Step]) -> Iterator[Step]:
-    """Each draw with its lines before what came at its tick or later; what holds for good comes first."""
-    left = sorted(dict.fromkeys(map(tuple, draws)), key=lambda one: -1 if one[0].tick is None else one[0].tick)
+def in_time(groups: Sequence[list[Step]], events: Iterable[Step], *, is_behind: bool = False) -> Iterator[Step]:
+    """Groups of steps, as a draw with its lines, each before what came at its tick or later; or behind its own tick.
+
+    What holds for good comes first.
+    """
+    left = sorted(dict.fromkeys(map(tuple, groups)), key=lambda one: -1 if one[0].tick is None else one[0].tick)
     for event in events:
-        while left and event.tick is not None and (left[0][0].tick or 0) <= event.tick:
+        while left and event.tick is not None and (left[0][0].tick or 0) + is_behind <= event.tick:
             yield from left.pop(0)
         yield event
     for each in left:

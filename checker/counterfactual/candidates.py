@@ -16,7 +16,7 @@ from pathlib import Path
 from checker.causes import Failed, dead_ends, failed_by, in_common, refusals
 from checker.counterfactual.deadlocks import lines_at_odds
 from checker.counterfactual.dependence import Dependence
-from checker.counterfactual.promises import forbids_values, promised_levels
+from checker.counterfactual.promises import first_violated, forbids_values, promised_levels
 from checker.counterfactual.python_ways import read_in_python
 from checker.counterfactual.removals import forbidden_by, limited_between, removes_check
 from checker.counterfactual.smallness import is_loosening
@@ -365,7 +365,7 @@ def _sets(text: str, name: str) -> bool:
 
 def _broken(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> list[tuple[str, TokenPattern]]:
     """The patterns of the first violated property, each with the predicate that it is about."""
-    broken = next((one for one in outcome.properties if not one.is_kept), None)
+    broken = first_violated(outcome)
     if given_up(outcome) is not None or broken is None:
         return []
     patterns = [pattern for each in properties if each.name == broken.name for pattern in (each.pattern, each.then)]

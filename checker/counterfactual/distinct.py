@@ -7,8 +7,8 @@ import re
 from collections import defaultdict
 from collections.abc import Sequence
 
-from checker.counterfactual.numbers import NUMERIC
 from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.kinds import NUMERIC
 
 _SAID = re.compile(r"\s*([\w.]+)\s*==\s*([A-Za-z_]\w*)\s*;")
 _VALUE = re.compile(r"=\s*(-?[\d.]+)\s*;")

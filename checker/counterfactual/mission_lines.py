@@ -13,6 +13,7 @@ from pathlib import Path
 
 from checker.causes import failed_by, timed_requests
 from checker.counterfactual.candidates import Candidate, Suspicion
+from checker.counterfactual.promises import first_violated
 from checker.mission import Mission
 from checker.mutation.edits import EditSite, SmallEdit
 from checker.mutation.mission_edits import is_due, mission_sites
@@ -48,7 +49,8 @@ def mission_lines(
     elements = conflict.elements if conflict is not None else ()
     asked = [one.place for one in elements if one.kind is ElementKind.REQUEST and one.place is not None]
     is_judged = outcome.abort is None and not outcome.open_goals  # by its properties
-    broken = next((one.name for one in outcome.properties if not one.is_kept), "") if is_judged else ""
+    violated = first_violated(outcome) if is_judged else None
+    broken = violated.name if violated is not None else ""
     behind = _behind_requests(mission, ended, elements, outcome)
     cut_off = _cut_off(mission, outcome)
     lines = {(str(real_path(Path(one.span.source.name))), one.span.line) for one in findings}

@@ -5,11 +5,10 @@ import re
 from dataclasses import replace
 
 from checker.mutation.edits import EditSite, SmallEdit
-from checker.mutation.kinds import EditKind
+from checker.mutation.kinds import NUMERIC, EditKind
 
 _COMPUTED = re.compile(r"\s*[A-Za-z_][\w.]*\s*==.*[A-Za-z_)].*;", re.DOTALL)
 _TWICE = 2.0  # octaves
-NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 
 
 def is_doubling(edit: SmallEdit) -> bool:

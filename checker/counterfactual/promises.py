@@ -4,17 +4,25 @@ from collections.abc import Sequence
 
 from checker.oracle import given_up
 from runtime.executive.configuration import PropertyConfiguration, PropertyKind
-from runtime.executive.outcome import Outcome
+from runtime.executive.outcome import Outcome, PropertyFate
+
+
+def first_violated(outcome: Outcome) -> PropertyFate | None:
+    """The first property of the mission file that was violated, None where all were kept."""
+    return next((one for one in outcome.properties if not one.is_kept), None)
+
+
+def _of(broken: PropertyFate | None, properties: Sequence[PropertyConfiguration]) -> list[PropertyConfiguration]:
+    return [each for each in properties if broken is not None and each.name == broken.name]
 
 
 def promised_levels(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> list[str]:
     """The resource whose level the first violated property is about, if it is about one."""
-    broken = next((one.name for one in outcome.properties if not one.is_kept), "")
-    is_judged = given_up(outcome) is None
-    return [each.level.resource for each in properties if is_judged and each.name == broken and each.level is not None]
+    broken = first_violated(outcome) if given_up(outcome) is None else None
+    return [each.level.resource for each in _of(broken, properties) if each.level is not None]
 
 
 def forbids_values(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> bool:
     """Whether the first violated property forbids values, whenever they come."""
-    broken = next((one.name for one in outcome.properties if not one.is_kept), "")
-    return any(each.name == broken and each.kind in (PropertyKind.NEVER, PropertyKind.ALWAYS) for each in properties)
+    forbidding = (PropertyKind.NEVER, PropertyKind.ALWAYS)
+    return any(each.kind in forbidding for each in _of(first_violated(outcome), properties))

@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -74,28 +74,31 @@ class CauseSearch:
     def causes(self, missions: Missions) -> Causes:
         """The causes of one fault."""
         bounds = replace(self._bounds, seconds=min(self._bounds.seconds, max(self._left, 0.0)))
-        aside = tuple(one.name for one in missions.failed[0].judgement.also)
-        trials = find_causes(missions, _without(self._world, aside), bounds)
-        root = Path(self._world.agent.root)
         first = missions.failed[0]
+        trials = find_causes(missions, _apart(self._world, first), bounds)
+        root = Path(self._world.agent.root)
         found = rank(trials, root, _raised_in(first), _asleep_in(first, self._world.agent))
         remarks = remarks_of(self._world.findings, root)
-        return replace(found, flown=first.number, remarks=remarks, aside=aside)
+        return replace(found, flown=first.number, remarks=remarks, aside=_aside(first))
 
     def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
         """Whether the change of a cause makes another failed mission pass, with all goals; False where time is over."""
         left = min(self._left, self._bounds.seconds)
         if cause.change is None or cause.claim is Claim.EVADES or left <= 0.0 or self._bounds.flights == 0:
             return False
-        aside = tuple(one.name for one in failed.judgement.also)
-        result = _fly(_without(self._world, aside), cause.change, failed, left)
+        result = _fly(_apart(self._world, failed), cause.change, failed, left)
         damage = _as_flown(Missions([failed]), self._world.agent).damage_of(result, failed)
         return result.verdict is Verdict.PASS and damage + voided_of(result, failed) < HEAVY
 
 
-def _without(world: Suspended, aside: Collection[str]) -> Suspended:
-    """The same, where missions are not judged by some properties: each violated one has a cause of its own."""
-    kept = tuple(one for one in world.agent.properties if one.name not in aside)
+def _aside(failed: MissionResult) -> tuple[str, ...]:
+    """The properties that a mission violated beside the first one: each has a cause of its own."""
+    return tuple(one.name for one in failed.judgement.also)
+
+
+def _apart(world: Suspended, failed: MissionResult) -> Suspended:
+    """The same, where missions are not judged by what was violated beside the first property."""
+    kept = tuple(one for one in world.agent.properties if one.name not in _aside(failed))
     return replace(world, agent=replace(world.agent, properties=kept))
 
 

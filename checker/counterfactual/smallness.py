@@ -11,7 +11,6 @@ from checker.counterfactual.bounds import is_result_moved, sets_value
 from checker.counterfactual.mentions import leaves_one
 from checker.counterfactual.moments import mixes_times, puts_times_right
 from checker.counterfactual.numbers import (
-    NUMERIC,
     digits,
     is_farthest,
     is_of_formula,
@@ -23,7 +22,7 @@ from checker.counterfactual.numbers import (
 from checker.counterfactual.usage import Usage
 from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, is_asked_for, sign_of
 from checker.mutation.edits import EditSite, SmallEdit
-from checker.mutation.kinds import DROPPED, EditKind
+from checker.mutation.kinds import DROPPED, NUMERIC, EditKind
 from checker.mutation.missing_lines import is_namesake, said_of
 
 _TWICE = re.compile(r"([A-Za-z_][\w.]*)\s*[+*]\s*\1")  # one name, added to itself or multiplied

@@ -25,13 +25,13 @@ from checker.counterfactual.damage import (
 from checker.counterfactual.effort import Bounds, Stopwatch
 from checker.counterfactual.follow_ups import alternatives, follow_ups
 from checker.counterfactual.missions import Missions
-from checker.counterfactual.numbers import NUMERIC, between, is_doubling
+from checker.counterfactual.numbers import between, is_doubling
 from checker.counterfactual.orders import is_order_turned
 from checker.counterfactual.smallness import cost_of, delay_of, first_edits, is_probe
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import Usage
 from checker.mutation.edits import EditSite, SmallEdit
-from checker.mutation.kinds import EditKind
+from checker.mutation.kinds import NUMERIC, EditKind
 from checker.oracle import Verdict
 
 _NEARNESS = 0.3  # of the distance, beside how late an edit is tried at its line

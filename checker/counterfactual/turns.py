@@ -11,10 +11,10 @@ from collections.abc import Callable, Collection
 from itertools import count
 
 from checker.counterfactual.candidates import Candidate
-from checker.counterfactual.numbers import NUMERIC, is_raised
+from checker.counterfactual.numbers import is_raised
 from checker.counterfactual.word_odds import is_comparison_turned
 from checker.mutation.edits import EditSite, SmallEdit, inverse_of
-from checker.mutation.kinds import EditKind
+from checker.mutation.kinds import NUMERIC, EditKind
 
 _BESIDE = 0.5  # how much of the wait is left for an edit of a line beside one that has helped
 _IDLE = 0.8  # how much later the edits of a line are tried that has no part in the failure

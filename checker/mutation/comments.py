@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 
-from nddl_lang.text.source import Span
+from nddl_lang.text.source import Source, Span
 
 _NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?")
 _WORD = re.compile(r"[a-z]+")
@@ -33,18 +33,18 @@ _NAMED = {
 
 def numbers_beside(statement: Span, whole: Span) -> frozenset[float]:
     """The numbers that comments name which speak of a statement, or of the rule that is `whole`."""
-    lines = statement.source.text.splitlines()
-    own = lines[statement.line - 1].partition("//")[2]
-    said = [own, *_above(lines, statement.line), *_above(lines, whole.line)]
+    source = statement.source
+    own = source.line(statement.line).partition("//")[2]
+    said = [own, *_above(source, statement.line), *_above(source, whole.line)]
     found = {float(one) for text in said for one in _NUMBER.findall(text)}
     return frozenset(
         found | {float(_NAMED[one]) for text in said for one in _WORD.findall(text.lower()) if one in _NAMED}
     )
 
 
-def _above(lines: list[str], line: int) -> Iterator[str]:
+def _above(source: Source, line: int) -> Iterator[str]:
     """The comments that stand right above a line."""
-    at = line - 2
-    while at >= 0 and (comment := _COMMENT.fullmatch(lines[at])) is not None:
+    at = line - 1
+    while at > 0 and (comment := _COMMENT.fullmatch(source.line(at))) is not None:
         yield comment.group(1)
         at -= 1

@@ -12,7 +12,7 @@ from checker.mutation.agreement import Agreement
 from checker.mutation.comments import numbers_beside
 from checker.mutation.copies import copied_names, said_before
 from checker.mutation.exchanges import exchangeable, exchanged, misplaced, recast, shortened
-from checker.mutation.kinds import EditKind
+from checker.mutation.kinds import NUMERIC, EditKind
 from checker.mutation.missing_lines import missing_lines
 from checker.mutation.names import other_names, other_points, other_tokens, other_values, tautologies
 from checker.mutation.scope import LineScope, Scopes
@@ -48,7 +48,6 @@ from nddl_lang.text.source import Span
 
 _INFINITE = 2**52 - 1
 _NUMBERS = ("int", "float")
-_NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 _SAMPLING = "sampledParameter"
 _FACTORS = (2.0, 0.5, 10.0, 0.1)
 _RELATIONS = ("any", "contains", "contained_by", "before", "after", "meets", "met_by", "starts", "ends", "equals")
@@ -377,7 +376,7 @@ def inverse_of(relation: str) -> str:
 
 def _noted(edits: Iterable[SmallEdit], numbers: Container[float]) -> frozenset[tuple[int, str]]:
     """The edits that write a number of those for one that is none of them."""
-    told = [one for one in edits if one.kind in _NUMERIC and float(one.old) not in numbers]
+    told = [one for one in edits if one.kind in NUMERIC and float(one.old) not in numbers]
     return frozenset((one.begin, one.new) for one in told if float(one.new) in numbers)
 
 
