@@ -46,6 +46,8 @@ INT_AMONG_FLOATS = Code(
 INT_RESULT = Code("NDDL552", Severity.WARNING, "lint", "`{name}` is an int: this holds only where the float is whole")
 WHOLE_FLOAT = Code("NDDL553", Severity.WARNING, "lint", "EUROPA lets `{name}` take whole numbers only")
 CHAINED = Code("NDDL554", Severity.WARNING, "lint", "`{op}` compares the truth of `{text}`")
+NEVER_WHOLE = Code("NDDL555", Severity.WARNING, "lint", "`{name}` is an int, and never {value}")
+ARROW = Code("NDDL556", Severity.WARNING, "lint", "`{text}` compares: `<-` is `<` and `-`")
 OVER_CAPACITY = Code(
     "NDDL560", Severity.WARNING, "lint", "`{name}` {moves} {demand} {way} `{resource}`, which {has} {capacity}"
 )

@@ -11,6 +11,7 @@ from nddl_lang.lint.guards import lint_guards
 from nddl_lang.lint.local_names import lint_hidden_names, lint_unused_labels, lint_unused_locals
 from nddl_lang.lint.names_of_values import lint_names_of_values
 from nddl_lang.lint.numbers import (
+    lint_arrows,
     lint_beyond_floats,
     lint_chained_comparisons,
     lint_float_equality,
@@ -47,6 +48,7 @@ _PART_LINTS: tuple[PartLint, ...] = (
     lint_int_results,
     lint_whole_floats,
     lint_chained_comparisons,
+    lint_arrows,
     lint_draws,
     lint_texts,
     lint_filters,

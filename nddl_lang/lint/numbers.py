@@ -1,11 +1,23 @@
 """Find arithmetic that does not do what it seems to: floats compared for equality, ints among floats, a < b < c."""
 
 from collections.abc import Iterator
+from functools import partial
+from math import ceil, floor, isfinite
 
-from nddl_lang.lint.codes import BEYOND_FLOATS, CHAINED, FLOAT_EQUALITY, INT_AMONG_FLOATS, INT_RESULT, WHOLE_FLOAT
-from nddl_lang.lint.part import Finding, Part
+from nddl_lang.lint.codes import (
+    ARROW,
+    BEYOND_FLOATS,
+    CHAINED,
+    FLOAT_EQUALITY,
+    INT_AMONG_FLOATS,
+    INT_RESULT,
+    NEVER_WHOLE,
+    WHOLE_FLOAT,
+)
+from nddl_lang.lint.part import Facts, Finding, Part
+from nddl_lang.lint.reading import declared
 from nddl_lang.semantics.literals import number
-from nddl_lang.semantics.schema import Kind, LocalReference
+from nddl_lang.semantics.schema import GlobalReference, Interval, Kind, LocalReference, Values, Variable
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import (
     Assignment,
@@ -25,12 +37,13 @@ from nddl_lang.syntax.nodes import (
     VariableDecl,
 )
 from nddl_lang.syntax.walk import descendants
-from nddl_lang.text.diagnostic import Edit, Fix, Note
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 from nddl_lang.text.source import Span
 
 _LARGEST_FLOAT = 2.0**51  # what is beyond counts as infinite, as in EUROPA
 _COMPARISONS = frozenset({"==", "!=", "<", "<=", ">", ">="})
 _ARITHMETIC = frozenset({"+", "-", "*", "/"})
+_ROUND = "say how to round: `ceil(...)` or `floor(...)`"
 _PRODUCTS = frozenset({"mulEq", "multEq", "divEq", "eqProduct"})
 
 
@@ -76,14 +89,23 @@ def _tests(part: Part) -> Iterator[BinaryExpr]:
 
 
 def _computed_locals(part: Part) -> set[object]:
+    """The locals that equal a result of arithmetic, and those that a product gives, all else in it given."""
     found: set[object] = set()
-    for constraint in part.all(ExprConstraint):
-        expression = constraint.expression
-        if isinstance(expression, BinaryExpr) and expression.op == "==":
-            for path, other in ((expression.left, expression.right), (expression.right, expression.left)):
-                reference = part.reference(path) if isinstance(path, PathExpr) else None
-                if isinstance(reference, LocalReference) and _is_computed(part, other):
-                    found.add(reference.variable)
+    given: set[object] = set()
+    for left, right, _ in _equalities(part):
+        for path, other in ((left, right), (right, left)):
+            reference = part.reference(path) if isinstance(path, PathExpr) else None
+            if not isinstance(reference, LocalReference):
+                continue
+            if _is_computed(part, other):
+                found.add(reference.variable)
+            if _kind(part, other) is not Kind.INT:
+                given.add(reference.variable)
+    for call in part.all(CallConstraint):
+        references = [part.reference(argument) for argument in call.arguments if isinstance(argument, PathExpr)]
+        free = [each.variable for each in references if isinstance(each, LocalReference) and each.variable not in given]
+        if call.name.name in _PRODUCTS and len(free) == 1:
+            found.update(free)
     return found
 
 
@@ -107,8 +129,9 @@ def lint_int_among_floats(part: Part) -> Iterator[Finding]:
 
 
 def lint_int_results(part: Part) -> Iterator[Finding]:
-    """An int that is to equal a computed float, or a variable that equals one."""
+    """An int that is to equal a float that was computed or drawn, or a number that is not whole."""
     computed = _computed_locals(part)
+    drawn = _drawn_locals(part)
     for left, right, span in _equalities(part):
         for path, other in ((left, right), (right, left)):
             if (
@@ -117,15 +140,65 @@ def lint_int_results(part: Part) -> Iterator[Finding]:
                 or _kind(part, other) is not Kind.FLOAT
             ):
                 continue
+            name, text = path.span.text, other.span.text
+            if (written := number(other)) is not None:
+                if _is_fraction(written):
+                    whole = (str(floor(written)), str(ceil(written)))
+                    fixes = tuple(Fix(f"write `{each}`", (Edit(other.span, each),), safe=False) for each in whole)
+                    yield NEVER_WHOLE.at(span, fixes=fixes, name=name, value=text)
+                continue
             reference = part.reference(other) if isinstance(other, PathExpr) else None
-            is_local = isinstance(reference, LocalReference) and reference.variable in computed
-            if is_local or _is_computed(part, other):
-                text = other.span.text
-                fix = Fix("round up", (Edit(other.span, f"ceil({text})"),), safe=False)
-                help_ = "say how to round: `ceil(...)` or `floor(...)`"
-                yield INT_RESULT.at(
-                    span, help=help_, fixes=(fix,) if part.dialect is Dialect.NDDLC else (), name=path.span.text
-                )
+            variable = reference.variable if isinstance(reference, LocalReference) else None
+            fix = Fix("round up", (Edit(other.span, f"ceil({text})"),), safe=False)
+            fixes = (fix,) if part.dialect is Dialect.NDDLC else ()
+            result = INT_RESULT.at(span, help=_ROUND, fixes=fixes, name=name)
+            if isinstance(reference, GlobalReference):
+                yield partial(_never_whole, span, name, reference.variable)
+            elif variable in drawn:
+                yield partial(_seldom_whole, result, drawn[variable])
+            elif variable in computed or _is_computed(part, other):
+                yield result
+
+
+def _is_fraction(value: object) -> bool:
+    return isinstance(value, float) and isfinite(value) and not value.is_integer()
+
+
+def _never_whole(span: Span, name: str, constant: Variable, facts: Facts) -> Diagnostic | None:
+    """The finding where a constant is no whole number."""
+    match facts.assigned.get((constant, "")) or declared(constant):
+        case Values(items=(value,)) if _is_fraction(value):
+            notes = (Note(f"`{constant.name}` is declared here", constant.span),)
+            return NEVER_WHOLE.at(
+                span, notes=notes, help=_ROUND, name=name, value=f"{value}, which `{constant.name}` is"
+            )
+    return None
+
+
+def _seldom_whole(result: Diagnostic, parameter: Variable, facts: Facts) -> Diagnostic | None:
+    """`result` where the range ends with a fraction: of another one a mission may draw whole numbers."""
+    match facts.assigned.get((parameter, "")) or declared(parameter):
+        case Interval(lower=lower, upper=upper) if lower != upper and (_is_fraction(lower) or _is_fraction(upper)):
+            return result
+    return None
+
+
+def _drawn_locals(part: Part) -> dict[Variable, Variable]:
+    """The local floats that are the value of a sampled parameter, with that."""
+    drawn: dict[Variable, Variable] = {}
+    sampled = part.tables.sampled
+    for left, right, _ in _equalities(part) if sampled else ():
+        for path, other in ((left, right), (right, left)):
+            reference = part.reference(path) if isinstance(path, PathExpr) else None
+            parameter = sampled.get(other) if isinstance(other, CallExpr) else None
+            if isinstance(reference, LocalReference) and isinstance(parameter, GlobalReference):
+                drawn[reference.variable] = parameter.variable
+    for call in part.all(CallConstraint) if sampled else ():
+        parameter = sampled.get(call)
+        reference = part.reference(call.arguments[0]) if parameter and isinstance(call.arguments[0], PathExpr) else None
+        if isinstance(reference, LocalReference) and isinstance(parameter, GlobalReference):
+            drawn[reference.variable] = parameter.variable
+    return drawn
 
 
 def _equalities(part: Part) -> Iterator[tuple[Expr, Expr, Span]]:
@@ -185,6 +258,19 @@ def lint_chained_comparisons(part: Part) -> Iterator[Finding]:
         fix = Fix(f"write `{text}`", (Edit(outer.span, text),), safe=False)
         notes = (Note(f"read as `({inner.span.text}) {outer.op} {right}`"),)
         yield CHAINED.at(outer.op_span, notes=notes, fixes=(fix,), op=outer.op, text=inner.span.text)
+
+
+def lint_arrows(part: Part) -> Iterator[Finding]:
+    """`x <- 3`, which other languages read as "x becomes 3"."""
+    for comparison in part.all(BinaryExpr):
+        sign, right = comparison.op_span, comparison.right.span
+        behind = sign.source.text[sign.finish : sign.finish + 2]
+        if comparison.op == "<" and right.begin == sign.finish and behind[:1] == "-" and behind[1:].isspace():
+            place = Span(sign.anchor, sign.start, sign.end + 1)
+            is_value = isinstance(part.node, ExprConstraint)
+            meant = "=" if is_value else "=="
+            fixes = tuple(Fix(f"write `{text}`", (Edit(place, text),), safe=False) for text in (meant, "< -"))
+            yield ARROW.at(place, fixes=fixes, text=comparison.span.text)
 
 
 def lint_beyond_floats(part: Part) -> Iterator[Finding]:

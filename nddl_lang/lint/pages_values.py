@@ -1,6 +1,7 @@
 """The pages of the findings about numbers, draws, the script, and what EUROPA does otherwise."""
 
 from nddl_lang.lint.codes import (
+    ARROW,
     BEGINS_OUTSIDE,
     BESIDE_FILE,
     BEYOND_FLOATS,
@@ -16,6 +17,7 @@ from nddl_lang.lint.codes import (
     LITERAL_TRUTH,
     NEVER_PLANNED,
     NEVER_VARIED,
+    NEVER_WHOLE,
     NO_FILTER,
     NO_MERGE,
     OBJECT_IN_PREDICATE,
@@ -113,6 +115,20 @@ VALUE_PAGES = (
         "`a < b < c` means `(a < b) < c`, where `a < b` counts as 0 or 1. Written in parentheses it is believed.",
         "int a; int b; int c;\na < b < c;\n",
         "int a; int b; int c;\na < b && b < c;\n",
+    ),
+    RulePage(
+        NEVER_WHOLE,
+        "An int is to equal a number with a fraction.",
+        "No whole number does, so no token of the rule is ever in a plan.",
+        _GPS + "Gps::active { duration == 120.5; hits >= 1; }\n",
+        _GPS + "Gps::active { duration == 120; hits >= 1; }\n",
+    ),
+    RulePage(
+        ARROW,
+        "`<-` stands where other languages give a value.",
+        "NDDL reads it as `<` and the sign of what follows. Written `< -3` or `<-3` it is believed.",
+        "int limit;\nlimit <- 3;\n",
+        "int limit = 3;\nlimit <= 4;\n",
     ),
     RulePage(
         OVER_CAPACITY,

@@ -1,5 +1,7 @@
 """Check that a value fits the variable that it is given to, and read the values that a text fixes."""
 
+from math import ceil, floor, isfinite
+
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.codes import DOES_NOT_FIT, OUTSIDE_TYPE
 from nddl_lang.semantics.expressions import type_of
@@ -153,6 +155,7 @@ def _complain_misfit(context: Context, expression: Expr, found: Type, target: Ty
     context.complain(
         DOES_NOT_FIT.at(
             part.span,
+            help=_help(part, target, name),
             fixes=_mend(part, target),
             text=part.span.text,
             found=phrase(part_type),
@@ -162,13 +165,28 @@ def _complain_misfit(context: Context, expression: Expr, found: Type, target: Ty
     )
 
 
+def _fraction(value: Expr, target: Type) -> float | None:
+    """The number that is written out where a whole one is wanted; None where it is whole, or anything else."""
+    written = number(value) if target.kind is Kind.INT else None
+    return written if isinstance(written, float) and isfinite(written) and not written.is_integer() else None
+
+
+def _help(value: Expr, target: Type, name: str) -> str | None:
+    if _fraction(value, target) is None:
+        return None
+    return f"write a whole number, or declare `{name}` as a `float`"
+
+
 def _mend(value: Expr, target: Type) -> tuple[Fix, ...]:
     text: str | None = None
+    if (fraction := _fraction(value, target)) is not None:
+        near = (str(floor(fraction)), str(ceil(fraction)))
+        return tuple(Fix(f"write `{whole}`", (Edit(value.span, whole),), safe=False) for whole in near)
     match value:
         case FloatLiteral(value=real) if target.kind is Kind.INT and real.is_integer():
             text = str(int(real))
-        case IntLiteral(value=0 | 1 as whole) if target.kind is Kind.BOOL:
-            text = "true" if whole else "false"
+        case IntLiteral(value=0 | 1 as truth) if target.kind is Kind.BOOL:
+            text = "true" if truth else "false"
         case BoolLiteral(value=truth) if target.kind is Kind.INT:
             text = str(int(truth))
         case StringLiteral(value=characters) if target.kind is Kind.ENUM and characters.isidentifier():

@@ -17,12 +17,16 @@ _CLOSERS = {"(": ")", "[": "]", "{": "}", "SET": "}"}
 _BRACKETS = (("(", ")"), ("[", "]"), ("{", "}"))
 _OPERATORS = ("==", "<=", ">=")
 _STRICT = ("!=", "<", ">")
+_BOUNDS = frozenset(("<=", ">=", *_STRICT))  # nobody who gives a value means one of these
 _ARITHMETIC = ("*", "+", "-", "/")
 _SEPARATORS = (",", ";", ".", "::", ":", "=")
 _WORDS = frozenset(("IDENT", "BASETYPE", "RELATION", "GOAL", "BOOL", "this")) | (
     frozenset(KINDS.values()) - {"INT", "FLOAT"}
 )
-_VALUES = frozenset(("INT", "FLOAT", "STRING"))
+_NUMBERS = frozenset(("INT", "FLOAT"))
+_VALUES = _NUMBERS | {"STRING"}
+_STOPS = frozenset((";", "{", "}", ")", ","))
+_COMPARING = frozenset((*_OPERATORS, *_STRICT, "="))
 _ENDS = frozenset((")", "]", "}", "IDENT", "this")) | _VALUES
 _NAME = re.compile(r"[A-Za-z_$][A-Za-z0-9_$]*")
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
@@ -38,7 +42,7 @@ _SHORTEST = 3  # letters of a name that may be misspelt
 _MISSPELT, _QUOTES, _CAPITALS, _BRACKET, _SIGN, _JOINED = 10, 11, 9, 12, 12, 11
 _DOUBLED, _MISSING_SIGN, _SWAPPED, _ENCLOSED, _NEW, _OWNER = 10, 14, 15, 14, 15, 17
 _NO_OWNER, _MISSING_TIMES, _MISSING_OPERATOR, _EXTRA_SIGN, _TYPE, _MEMBER = 16, 18, 18, 16, 20, 19
-_OTHER_NAME, _OTHER_WORD, _EXTRA_WORD, _ARITHMETIC_SIGN, _MISSING_NAME = 24, 24, 22, 23, 14
+_OTHER_NAME, _OTHER_WORD, _EXTRA_WORD, _ARITHMETIC_SIGN, _MISSING_NAME, _COMMENT = 24, 24, 22, 23, 14, 13
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,6 +124,8 @@ def vocabulary(known: Collection[str], missing: Sequence[str], statement: Lexeme
 def token_edits(line: Lexemes, focus: tuple[int, int], words: Vocabulary) -> list[TokenEdit]:
     """The edits of a line, cheapest first; of equal cost those nearest to the `focus` go first, which is a stretch."""
     edits: dict[tuple[tuple[int, int, str], ...], int] = {}
+    if _is_prose(line):
+        edits[((line.starts[0], line.starts[0], "// "),)] = _COMMENT * 100
     for at in range(len(line.kinds)):
         near = _steps(line, at, focus)
         for cost, changes in _edits_at(line, at, words):
@@ -130,6 +136,13 @@ def token_edits(line: Lexemes, focus: tuple[int, int], words: Vocabulary) -> lis
     return sorted(
         (TokenEdit(cost, changes) for changes, cost in edits.items()), key=lambda each: (each.cost, each.edits)
     )
+
+
+def _is_prose(line: Lexemes) -> bool:
+    """Whether a line reads as a sentence that lacks its `//`: words in a row, and nothing that ends a statement."""
+    before = line.text[: line.starts[0]].rpartition("\n")[2]
+    words = "".join("w" if kind in _WORDS else " " for kind in line.kinds)
+    return not before.strip() and "www" in words and line.kinds[-1] not in _STOPS and _COMPARING.isdisjoint(line.kinds)
 
 
 def _steps(line: Lexemes, at: int, focus: tuple[int, int]) -> int:
@@ -157,6 +170,8 @@ def _edits_at(line: Lexemes, at: int, words: Vocabulary) -> Iterator[_Priced]:
     elif kind in _VALUES:
         if text.strip(".") != text:
             yield _QUOTES, ((start, end, text.rstrip(".")),)
+        if kind in _NUMBERS and line.kinds[at + 1 : at + 2] and line.kinds[at + 1] in _NUMBERS:
+            yield _JOINED, ((start, line.ends[at + 1], text + line.texts[at + 1]),)
     else:
         yield from _sign_edits(line, at)
     yield from _enclosing_edits(line, at)
@@ -256,13 +271,18 @@ def _sign_edits(line: Lexemes, at: int) -> Iterator[_Priced]:
                 yield _BRACKET, ((start, end, closing),)
     else:
         for sign in _SEPARATORS if kind == ";" else (*_SEPARATORS, *_OPERATORS, *_STRICT, *_ARITHMETIC, "&&", "||"):
-            if sign != text:
-                put = sign if sign in _SEPARATORS else f" {sign} " if text in _SEPARATORS else sign
+            if sign != text and not (text == "=" and sign in _BOUNDS):
+                put = sign if sign in _SEPARATORS or text not in _SEPARATORS else _spaced(line.text, start, end, sign)
                 is_alike = sign[0] == text[0] or (text in ",;.:" and sign in ",;.:") or "=" in (sign, text)
                 yield _SIGN + 4 * (not is_alike) + 2 * (sign in _STRICT), ((start, end, put),)
     yield _EXTRA_SIGN, ((start, end, ""),)
     if at and at + 1 < len(line.kinds) and line.ends[at - 1] < start:  # the blanks around it are left out too
         yield _EXTRA_SIGN + 1, ((line.ends[at - 1], line.starts[at + 1], " "),)
+
+
+def _spaced(text: str, start: int, end: int, sign: str) -> str:
+    """An operator in place of a stretch of `text`, with a blank on either side."""
+    return f"{' ' * (not text[:start].endswith(' '))}{sign}{' ' * (text[end : end + 1] != ' ')}"
 
 
 def _enclosing_edits(line: Lexemes, at: int) -> Iterator[_Priced]:
