@@ -25,9 +25,10 @@ from checker.oracle import HUNG, USER_CODE
 from runtime.executive.configuration import AgentConfiguration
 from runtime.user.fault import UserCodeError
 
-_LARGEST_CHUNK = 16
+_LARGEST_CHUNK = 64
 _FAILED_STARTS = 3  # workers in a row that may die before they are ready
 _MOST_QUIET = 0.25  # seconds without a look at the clock
+_LONGEST_PAUSE = 0.05  # seconds in which results gather
 
 
 class Supervisor(Protocol):
@@ -97,7 +98,9 @@ class _Pool:
 
     def run(self, signalled: int) -> signal.Signals | None:
         """Serve workers until every task has its result, or there are enough; a signal ends that at once."""
+        looked = time.monotonic()
         while not self.supervisor.is_enough() and (self.missing or self._refill()):
+            missing = self.missing
             ends: list[Connection | int] = [worker.connection for worker in self.workers]
             soonest = min(worker.deadline for worker in self.workers if worker.owed or not worker.is_ready)
             ready = wait([*ends, signalled], min(_MOST_QUIET, max(0.0, soonest - time.monotonic())))
@@ -106,10 +109,16 @@ class _Pool:
             for worker in list(self.workers):
                 if worker.connection in ready:
                     self._listen(worker)
+                    while worker in self.workers and worker.owed and worker.connection.poll():
+                        self._listen(worker)
                 elif (reason := worker.hung()) is not None:
                     self._lose(worker, reason, USER_CODE)
                 elif time.monotonic() > worker.deadline and (worker.owed or not worker.is_ready):
                     self._lose(worker, f"took longer than {self.batch.time_limit:g} s", HUNG)
+            since, looked = looked, time.monotonic()
+            pause = self._pause(missing - self.missing, looked - since)
+            if pause and wait([signalled], pause):
+                break
         # One that came with the last result, too, is for whoever would fly more.
         return signal.Signals(os.read(signalled, 1)[0]) if wait([signalled], 0.0) else None
 
@@ -138,6 +147,17 @@ class _Pool:
             worker.process.kill()
         for worker in self.workers:
             worker.kill()
+
+    def _pause(self, taken: int, seconds: float) -> float:
+        """How long results may gather, where `taken` came within `seconds`: until some worker has done half of its work.
+
+        To wake up costs as much as to take a result; where missions take long, it does not matter.
+        """
+        if not taken or not self.waiting:
+            return 0.0
+        mission = seconds * len(self.workers) / taken
+        pause = min(_LONGEST_PAUSE, mission * min(len(worker.owed) for worker in self.workers) / 2)
+        return pause if pause > 2 * mission else 0.0
 
     def _listen(self, worker: Worker) -> None:
         """Take one thing that a worker has said."""
