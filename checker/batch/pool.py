@@ -149,7 +149,7 @@ class _Pool:
             worker.kill()
 
     def _pause(self, taken: int, seconds: float) -> float:
-        """How long results may gather, where `taken` came within `seconds`: until some worker has done half of its work.
+        """How long results may gather, where `taken` came in `seconds`: until some worker has done half of its work.
 
         To wake up costs as much as to take a result; where missions take long, it does not matter.
         """
