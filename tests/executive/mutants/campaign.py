@@ -10,6 +10,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from tests.executive.mutants.flights import NOT_FLOWN
+
 ROOT = Path(__file__).parents[3]
 PORTION = 40  # mutants that one process flies
 SLOWER = 30  # so many times as long may a flight take that is interpreted
@@ -24,13 +26,17 @@ class Campaign:
     until: int | None = None
     only: str = ""
     general: int = sys.maxsize
+    general_until: int | None = None
+    ticks: tuple[int, int] = (0, sys.maxsize)
 
     def flown(self, form: str, mutants: Sequence[tuple[int, int]]) -> list[str]:
         """What mutants do in so many missions, in one form of the engine: `1` interpreted, empty compiled."""
         command = [sys.executable, "-m", "tests.executive.mutants.flights", *(f"{one}:{many}" for one, many in mutants)]
         command += ["--seconds", str(self.seconds * (SLOWER if form else 1)), "--whole", str(self.whole)]
         command += ["--general", str(self.general)]
-        command += ["--only", self.only, *(["--until", str(self.until)] if self.until is not None else [])]
+        command += ["--ticks", *map(str, self.ticks), "--only", self.only]
+        for option, tick in (("--until", self.until), ("--general-until", self.general_until)):
+            command += [option, str(tick)] if tick is not None else []
         environment = os.environ | {"NDDLC_INTERPRETED": form}
         done = subprocess.run(command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, text=True, check=False)
         lines = done.stdout.splitlines()
@@ -51,7 +57,7 @@ class Campaign:
             tally.wrong += departures(compiled, interpreted)
             tally.count("in both forms", flights_in(interpreted).values())
         for line in compiled:
-            if line.split()[-1] in ("slow", "invalid"):
+            if line.split()[-1] in NOT_FLOWN:
                 tally.counts[line.split()[1], line.split()[-1]] += 1
         for mission in dict.fromkeys(tuple(key[:2]) for key in flights_in(compiled)):
             tally.counts[mission[1], "mutants"] += 1
@@ -81,7 +87,7 @@ class Tally:
 
     def table(self) -> str:
         """One line for each folder of missions whose models are small, and for each other mission."""
-        kinds = ("mutants", "flights", "in both forms", "slow", "invalid")
+        kinds = ("mutants", "flights", "in both forms", *NOT_FLOWN)
         sums: Counter[tuple[str, str]] = Counter()
         for (mission, kind), count in self.counts.items():
             name = mission.rsplit("/", 1)[0] if mission.startswith("tests/") else mission
@@ -98,7 +104,7 @@ def flights_in(lines: Sequence[str]) -> dict[tuple[str, ...], str]:
     return {
         tuple(line.split()[:4]): line
         for line in lines
-        if not line.startswith("WRONG") and line.split()[-1] not in ("slow", "invalid")
+        if not line.startswith("WRONG") and line.split()[-1] not in NOT_FLOWN
     }
 
 
@@ -123,6 +129,8 @@ def arguments() -> Namespace:
     parser.add_argument("--whole", type=float, default=600.0, help="seconds for all flights of a mutant, in each form")
     parser.add_argument("--until", type=int, help="the tick at which missions are ended")
     parser.add_argument("--general", type=int, default=sys.maxsize, help="missions that the general engine flies too")
+    parser.add_argument("--general-until", type=int, help="the tick at which the general engine's missions are ended")
+    parser.add_argument("--ticks", type=int, nargs=2, default=(0, sys.maxsize), help="final ticks, from and to before")
     parser.add_argument("--only", default="", help="what the paths of mission files begin with: models/auv")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--compiled-only", action="store_true")
@@ -132,7 +140,9 @@ def arguments() -> Namespace:
 def main() -> int:
     """Fly COUNT mutants from FIRST on; 1 if anything was wrong."""
     given = arguments()
-    campaign = Campaign(given.seconds, given.whole, given.until, given.only, given.general)
+    campaign = Campaign(
+        given.seconds, given.whole, given.until, given.only, given.general, given.general_until, tuple(given.ticks)
+    )
     last = given.first + given.count
     whole = Tally()
     with ThreadPoolExecutor(given.workers) as pool:

@@ -18,6 +18,8 @@ from multiprocessing import get_context
 from pathlib import Path
 from types import FrameType
 
+import numpy as np
+
 from runtime.build_form import interpreting_is_asked
 from checker.counterfactual.search import sites_in
 from checker.judge.judge import judge_mission
@@ -28,7 +30,10 @@ from checker.mutation.edits import EditSite, SmallEdit
 from checker.mutation.kinds import REPAIRS, EditKind
 from checker.mutation.variant import open_over, with_edit
 from checker.pinned import pinned
+from runtime.determined.told import StoredObservations
 from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.event_parts import EventColumns
+from runtime.executive.events import EventLog
 from runtime.executive.mission import (
     MissionPrograms,
     UnusableModelError,
@@ -36,7 +41,7 @@ from runtime.executive.mission import (
     register_program,
     run_mission,
 )
-from runtime.executive.outcome import Outcome
+from runtime.executive.outcome import Event, Outcome
 from runtime.executive.rendering import trace_json
 from tests.executive.determined_models import told
 
@@ -54,6 +59,7 @@ CASES = ROOT / "tests" / "executive" / "cases"  # 20 times as many as all other 
 
 TRIALS = 20  # until a mutant is a model
 SHARES = 2
+NOT_FLOWN = SLOW, INVALID, LEFT_OUT = "slow", "invalid", "left_out"
 WITHOUT_CHANCE = 3  # missions of a mutant that samples nothing: all are alike
 
 
@@ -97,7 +103,9 @@ class Limits:
     seconds: float = 60.0
     whole: float = 600.0
     until: int | None = None
-    general: int = sys.maxsize  # the missions of a mutant that the general engine flies too
+    general: int = sys.maxsize  # the missions of a mutant that the general engine flies too; interpreted, judged
+    general_until: int | None = None  # the tick at which the general engine's are ended, at most
+    ticks: range = range(sys.maxsize)  # the final ticks of missions of which mutants are flown
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,22 +118,32 @@ class Mutant:
     limits: Limits
     is_determined: bool  # some reactor is, and is flown as register code
 
-    def told(self, outcome: Outcome) -> str:
-        """How a mission ended, and the digest of its trace."""
-        trace = "\n".join(map(trace_json, outcome.events)).replace(str(ROOT), "")
+    def told(self, seed: int, outcome: Outcome) -> str:
+        """How a mission ended, and the digest of its trace; the first one's is that of the text."""
+        lines = map(trace_json, outcome.events) if seed == 0 else parts_of(outcome.events)
+        trace = "\n".join(lines).replace(str(ROOT), "")
         code = outcome.abort.code if outcome.abort is not None else "F10" if outcome.open_goals else "ended"
         return f"{code} {outcome.last_tick} {sha256(trace.encode()).hexdigest()[:16]}"
+
+    def general_until(self) -> int | None:
+        """The tick at which the general engine's missions are ended."""
+        ends = [one for one in (self.limits.until, self.limits.general_until) if one is not None]
+        return min(ends, default=None)
 
     def lines(self, seed: int) -> Iterator[str]:
         """One flight, and what is wrong about it."""
         outcome, record = record_mission(self.agent, self.programs, seed, until=self.limits.until)
-        report = judge_mission(self.agent, self.programs.programs, outcome, record, self.programs.constraints)
-        yield f"{self.name} {seed} {self.told(outcome)}"
-        for one in report.disagreements:
-            said = " ".join(disagreement_text(one).split()).replace(str(ROOT), "")
-            yield f"WRONG {self.name} {seed} judge: {said}"
+        yield f"{self.name} {seed} {self.told(seed, outcome)}"
+        if seed < self.limits.general or not interpreting_is_asked():
+            report = judge_mission(self.agent, self.programs.programs, outcome, record, self.programs.constraints)
+            for one in report.disagreements:
+                said = " ".join(disagreement_text(one).split()).replace(str(ROOT), "")
+                yield f"WRONG {self.name} {seed} judge: {said}"
         if self.is_determined and seed < self.limits.general and not interpreting_is_asked():
-            general = run_mission(self.agent, self.programs, seed, until=self.limits.until, compiles=False)
+            until = self.general_until()
+            general = run_mission(self.agent, self.programs, seed, until=until, compiles=False)
+            if until != self.limits.until:
+                outcome = run_mission(self.agent, self.programs, seed, until=until)
             if told(general) != told(outcome):
                 yield f"WRONG {self.name} {seed} the determined form tells something else than the general engine"
 
@@ -136,7 +154,7 @@ class Mutant:
             try:
                 with at_most(self.limits.seconds):
                     outcome, _ = record_mission(self.agent, self.programs, seed, until=self.limits.until)
-                    found.append(f"{self.name} {seed} {self.told(outcome)}")
+                    found.append(f"{self.name} {seed} {self.told(seed, outcome)}")
             except SlowError:
                 continue
             except Exception as problem:
@@ -144,8 +162,33 @@ class Mutant:
         return found
 
 
+def parts_of(events: Sequence[Event]) -> Iterator[str]:
+    """All that a trace is made of; runs of observations by their columns, at a tenth of the cost of their text."""
+    numbers: dict[int, int] = {}
+    for part in events.parts if isinstance(events, EventLog) else events:
+        if isinstance(part, Event):
+            yield trace_json(part)
+            continue
+        if id(part.columns) not in numbers:
+            numbers[id(part.columns)] = len(numbers)
+            yield from columns_of(part.columns.stored())
+        yield f"{numbers[id(part.columns)]} {part.first} {part.count}"
+
+
+def columns_of(columns: EventColumns) -> Iterator[str]:
+    """All that the lines of a simulator's observations are made of."""
+    assert isinstance(columns, StoredObservations)
+    yield f"{columns.name} {columns.symbols}"
+    for kind in columns.kinds:
+        yield f"{kind.timeline} {kind.predicate} {kind.full_name} {kind.shapes}"
+        yield from (
+            np.asarray(one, np.int64).tobytes().hex() for one in (kind.indices, kind.ticks, kind.rows, kind.causes)
+        )
+        yield np.asarray(kind.values, np.float64).tobytes().hex()
+
+
 def mutant_of(number: int, files: Sequence[Path], limits: Limits) -> tuple[str, Mutant | None]:
-    """The name of mutant `number`, and the mutant itself, unless nothing that was tried is a model.
+    """The name of mutant `number`, and the mutant itself, unless nothing that was tried is a model or it is left out.
 
     Where there are cases and other missions, every second number is of those others.
     """
@@ -155,6 +198,8 @@ def mutant_of(number: int, files: Sequence[Path], limits: Limits) -> tuple[str, 
     mission, _ = read_mission(file)
     assert mission is not None
     place = str(file.parent.relative_to(ROOT)).replace(" ", "_")
+    if mission.agent.final_tick not in limits.ticks:
+        return f"{number} {place} {LEFT_OUT}", None
     sites = sites_in(mission.agent)
     for _ in range(TRIALS):
         edit = edit_of(sites, chance)
@@ -166,7 +211,7 @@ def mutant_of(number: int, files: Sequence[Path], limits: Limits) -> tuple[str, 
             name = f"{number} {place} {edit.kind.value.replace(' ', '_')}@{at}"
             programs = pinned(models).programs_of(models.agent)
             return name, Mutant(name, models.agent, programs, limits, _is_determined(models.agent, programs))
-    return f"{number} {place} none", None
+    return f"{number} {place} {INVALID}", None
 
 
 def _is_determined(agent: AgentConfiguration, programs: MissionPrograms) -> bool:
@@ -181,7 +226,7 @@ def lines_of(number: int, missions: int, files: Sequence[Path], limits: Limits) 
     """What mutant `number` does in a number of missions, within a time for each of them and for all."""
     name, mutant = mutant_of(number, files, limits)
     if mutant is None:
-        yield f"{name} 0 invalid"
+        yield name
         return
     if not mutant.agent.parameters and not mutant.agent.coded:
         missions = min(missions, WITHOUT_CHANCE)
@@ -193,7 +238,7 @@ def lines_of(number: int, missions: int, files: Sequence[Path], limits: Limits) 
             with at_most(min(limits.seconds, end - time.process_time())):
                 lines.extend(mutant.lines(seed))
         except SlowError:
-            yield f"{name} {seed} slow"
+            yield f"{name} {seed} {SLOW}"
             break
         except Exception as problem:
             said = " ".join(str(problem).replace(str(ROOT), "").split())
@@ -232,12 +277,14 @@ def main() -> None:
     parser.add_argument("--whole", type=float, default=600.0, help="seconds for all flights of a mutant")
     parser.add_argument("--until", type=int, help="the tick at which missions are ended")
     parser.add_argument("--general", type=int, default=sys.maxsize, help="missions that the general engine flies too")
+    parser.add_argument("--general-until", type=int, help="the tick at which the general engine's are ended")
+    parser.add_argument("--ticks", type=int, nargs=2, default=(0, sys.maxsize), help="final ticks, from and to before")
     parser.add_argument("--only", default="", help="what the paths of mission files begin with")
     given = parser.parse_args()
     files = files_below(given.only)
     if not files:
         parser.error(f"no mission file of the project begins with `{given.only}`")
-    limits = Limits(given.seconds, given.whole, given.until, given.general)
+    limits = Limits(given.seconds, given.whole, given.until, given.general, given.general_until, range(*given.ticks))
     for each in given.mutants:
         number, missions = map(int, each.split(":"))
         for line in lines_of(number, missions, files, limits):
