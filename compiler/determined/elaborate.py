@@ -54,6 +54,9 @@ class Elaboration:
         self.mask = mask
         self.sheet.given.add(0)
         self._start_token(ROOT, line, predicate, -1, -1, 0, ())
+        for number, token in enumerate(self.tokens):
+            if token.how == FOLLOWING:
+                self._declare_follower(number, token)
 
     # ---- tokens ----
 
@@ -93,19 +96,7 @@ class Elaboration:
                 self.sheet.wanted[bank + k] = context
                 if self.model.may_stay_open(parameter.type, parameter.domain):
                     self.sheet.openable.add(bank + k)
-                self._restrict(
-                    Cell(bank + k, parameter.type.kind),
-                    parameter.type,
-                    parameter.domain,
-                    context,
-                    parameter.span or self.model.span_of(predicate),
-                    parameter.name,
-                )
-                if parameter.copy_of is not None:
-                    body = RuleInstance(number, -1, {0: number})
-                    mine = Cell(bank + k, parameter.type.kind)
-                    span = parameter.span or self.model.span_of(predicate)
-                    self._equate(mine, self._cell(parameter.copy_of, body, span), context, span, parameter.name)
+                self._declare(number, k, context)
             self._run(RuleInstance(number, -1, {0: number}), predicate.body, context)
             for index in predicate.rules:
                 self._run(RuleInstance(number, index, {0: number}), self.model.program.rules[index].body, context)
@@ -113,6 +104,27 @@ class Elaboration:
             for k in range(len(predicate.parameters)):
                 self.sheet.homes[bank + k] = context
         return number
+
+    def _declare(self, number: int, k: int, context: Context) -> None:
+        """Hold a parameter within its declared domains, and equal to what its declaration says that it is."""
+        predicate = self.tokens[number].predicate
+        parameter = predicate.parameters[k]
+        span, cell = parameter.span or self.model.span_of(predicate), Cell(self.banks[number] + k, parameter.type.kind)
+        self._restrict(cell, parameter.type, parameter.domain, context, span, parameter.name)
+        if parameter.copy_of is not None:
+            body = RuleInstance(number, -1, {0: number})
+            self._equate(cell, self._cell(parameter.copy_of, body, span), context, span, parameter.name)
+
+    def _declare_follower(self, number: int, token: BlockToken) -> None:
+        """The same of what is said of a token that follows: it is in the plan before it starts."""
+        said = {register for item in self.sheet.items for register in item.needs if item.rank < 1}
+        for k in range(len(token.predicate.parameters)):
+            if self.banks[number] + k in said:
+                self._declare(number, k, token.context)
+        lasting = self._lasting(number)
+        if self.layout.tells_lengths and lasting in said:
+            span, check = self.model.span_of(token.predicate), (code.ORDER, self._constant(1.0), lasting)
+            self.sheet.items.append(Item(token.context, span, "duration", (lasting,), (), (check,)))
 
     def _lasting(self, number: int) -> int:
         """The register that says how long a token lasts, where the one before it does."""

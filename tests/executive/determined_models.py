@@ -155,11 +155,14 @@ class Writer:
         if after and chance.random() < 0.5:
             after += chance.choice((" r.duration == n;", " r.duration == 4;", " if (n > 3) { r.duration == n + 2; }"))
         rest = chance.choice(("", "duration >= 3;", "duration == 4;"))
-        self.timeline(name, "predicate Rest { int k; } predicate Do { int n; }", "Rest")
+        kept, quiet = "int k;", "Rest"
+        if "r.k" in after and chance.random() < 0.5:  # what is not told the next token would be a choice
+            kept, quiet = chance.choice(("Small k;", "Odd k;", "int k = LIMIT;")), "Lull"
+        self.timeline(name, f"predicate Rest {{ {kept} }} predicate Lull {{ }} predicate Do {{ int n; }}", quiet)
         self.rules.append(f"{name}::Do {{ {lasting} {after} }}")
         self.rules.append(f"{name}::Rest {{ {rest} }}")
         for _ in range(chance.randint(0, 3)):
-            self.goal(name.lower(), "Do", ("n", chance.randint(1, 6)))
+            self.goal(name.lower(), "Do", ("n", chance.randint(0, 6)))
 
     def helm(self, name: str, is_read: bool) -> str:
         """A timeline of commands with a mirror that has one predicate.
@@ -206,7 +209,8 @@ def random_case(seed: int) -> Case:
                 writer.chain(f"C{number}", mirror, with_draw)
     text = "\n".join(
         [
-            "float NOISE = [-1.0 1.0]; float SLOW = [0.1 2.0];",
+            "float NOISE = [-1.0 1.0]; float SLOW = [0.1 2.0]; int LIMIT = 4;",
+            "typedef int [1 5] Small; typedef int {1, 3, 5} Odd;",
             *writer.classes,
             *writer.rules,
             *writer.objects,

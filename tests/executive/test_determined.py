@@ -193,6 +193,55 @@ def test_a_token_tells_how_long_the_next_one_lasts(rule: str) -> None:
         agree(Case((simulator("psim", model, "arm lamp"),), (asked, again), (long,)), n)
 
 
+RUN = """
+int LIMIT = 1;
+typedef int {1, 3} Few; typedef int [1 3] Some; typedef float [0.1 2.0] Part;
+class Helm extends AgentTimeline {
+  predicate Idle { } predicate Run { int n; } predicate Rest { int k; } predicate Halt { }
+  Helm(Mode m) { super(m, "Idle"); }
+}
+class Lamp extends AgentTimeline { predicate Off { } predicate On { Some k; } Lamp(Mode m) { super(m, "Off"); } }
+Helm::Run { duration == 4; meets(object.Rest r); r.k == n; }
+Helm helm = new Helm(Internal); Lamp lamp = new Lamp(Internal); close();
+"""
+
+
+@pytest.mark.parametrize("n", [0, 1, 2])
+@pytest.mark.parametrize(
+    ("kept", "rule"),
+    [
+        ("Few k;", "r.k == n;"),
+        ("Some k;", "r.k == n;"),
+        ("int k = [1 3];", "r.k == n;"),
+        ("int k = LIMIT;", "r.k == n;"),
+        ("Part k;", "r.k == n * 0.1;"),
+        ("int k;", "r.duration == n;"),
+        ("int k;", "bool none; none == (n < 1); if (none) { r.duration == n; } else { r.k == 2; }"),
+        ("int k;", "meets(Lamp.On on); on.k == n;"),
+        ("int k;", "meets(Lamp.On on); on.k == 1; on.duration == n;"),
+    ],
+)
+def test_what_is_said_of_the_next_token_holds_before_it_starts(kept: str, rule: str, n: int) -> None:
+    model = RUN.replace("Rest { int k; }", f"Rest {{ {kept} }}").replace("r.k == n;", rule)
+    asked = GoalConfiguration("helm", "Run", 0, False, (5, 20), None, None, (("n", n),))
+    case = Case((simulator("psim", model, "helm lamp"),), (asked,))
+    agree(case)
+    holds = [(event.tick, event.predicate) for event in case.fly(1, compiles=True).events if event.timeline == "helm"]
+    assert ((5, "Run") in holds) == (n != 0 and (kept, n) not in (("Few k;", 2), ("int k = LIMIT;", 2)))
+
+
+@pytest.mark.parametrize("n", [0, 1])
+def test_a_token_that_leaves_no_room_for_what_comes_after_the_next_fails_in_time(n: int) -> None:
+    model = RUN.replace("duration == 4;", "duration == 1;")
+    model += "Helm::Rest { duration == 1; meets(object.Halt h); h.duration == k; }"
+    agree(
+        Case(
+            (simulator("psim", model, "helm lamp"),),
+            (GoalConfiguration("helm", "Run", 0, False, (5, 20), None, None, (("n", n),)),),
+        )
+    )
+
+
 SLIT = """
 class Slit extends AgentTimeline {
   predicate Closed { } predicate Opening { } predicate Open { } Slit(Mode m) { super(m, "Closed"); }
