@@ -43,6 +43,7 @@ _FIRST_SHARE = 0.6  # of the flights
 _ROUNDS = 3  # in which mistakes of the rules are looked into
 _WIDE = 0.01  # of a range
 _Sampled = tuple[Row, Ended, SamplePoint]  # what a mission of the run drew, how it ended, and why it drew that
+_MOST_STEPS = 8  # of a parameter of which each value may be told from the next
 _MOST_POINTS = 24  # of the run from which crossings are sought
 
 
@@ -152,10 +153,19 @@ def _induced(
     edges: Sequence[Literal],
     flown: Sequence[tuple[Row, Ended]] = (),
 ) -> tuple[Conjunction, ...]:
-    """Rules over the edges that flights found, with cuts of the samples where a parameter has none."""
+    """Rules over the edges that flights found, with cuts of the samples where a parameter has none.
+
+    A parameter of few values may be cut between any two.
+    """
     stepped = {axis.name for axis in space.parameters if axis.is_stepped()}
     cuts = sample_cuts(rows, _features(space, {one.feature for one in edges}), stepped)
-    return induce(rows, [*edges, *cuts], flown)
+    steps = [
+        Literal(axis_feature(axis.name), True, value, holds_at_edge=True)
+        for axis in space.parameters
+        if not axis.is_redrawn
+        for value in axis.steps(_MOST_STEPS)[1:]
+    ]
+    return induce(rows, [*edges, *cuts, *steps], flown)
 
 
 def _features(space: Space, known: set[Feature]) -> list[Feature]:

@@ -75,13 +75,16 @@ def _conjunction_text(conjunction: Conjunction) -> str:
 
 
 def literal_text(literal: Literal) -> str:
-    """One limit, such as `A * B > 0.6`, or of a redrawn parameter `a draw of P > 3.8`."""
+    """One limit, such as `A * B > 0.6`; of redrawn parameters `a draw of P > 3.8`, `P + Q > 3.8 at some draw`."""
     sign = (">" if literal.is_above else "<") + ("=" if literal.holds_at_edge else "")
+    limit = f"{_feature_text(literal.feature)} {sign} {_plain(literal.edge)}"
     extreme = literal.feature.extreme
-    which = ""
-    if extreme is not Extreme.ONLY:
-        which = "a draw of " if literal.is_above is (extreme is Extreme.GREATEST) else "every draw of "
-    return f"{which}{_feature_text(literal.feature)} {sign} {_plain(literal.edge)}"
+    if extreme is Extreme.ONLY:
+        return limit
+    is_any = literal.is_above is (extreme is Extreme.GREATEST)
+    if len(literal.feature.parameters) == 1:
+        return f"{'a' if is_any else 'every'} draw of {limit}"
+    return f"{limit} at {'some draw' if is_any else 'every draw'}"
 
 
 def _feature_text(feature: Feature) -> str:

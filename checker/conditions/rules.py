@@ -16,7 +16,8 @@ from checker.simplest import shortest_decimal
 _BEAM = 16
 _MOST_LITERALS = 6
 _MOST_CONJUNCTIONS = 4
-_PRICE = 0.01  # of a literal, in shares of the missions covered
+_PRICE = 0.01  # of a literal of one parameter, in shares of the missions covered
+_SUM_PRICE = 0.005  # more, of a sum: its weights are numbers too
 _LEAST_GAIN = 0.04  # a further conjunction must cover so much of the failing missions
 _CHOSEN = 0.02  # weight of a flight at a chosen point
 _Mask = NDArray[np.bool_]
@@ -36,12 +37,13 @@ def induce(
     literals = list(dict.fromkeys(one for edge in edges for one in (edge, edge.negation)))
     if not literals or not counted:
         return ()
+    prices = np.array([_price(literal) for literal in literals])
     truth = np.array([[literal.holds(row) for row, _ in counted] for literal in literals])
     fails = np.array([label is Ended.FAILS for _, label in counted])
     left, total = weights * fails, float(weights[fails].sum())
     found: list[Conjunction] = []
     while left.sum() > 0.0 and len(found) < _MOST_CONJUNCTIONS:
-        chosen = _conjunction(truth, left, weights * ~fails)
+        chosen = _conjunction(truth, prices, left, weights * ~fails)
         if not chosen:
             break
         covered = truth[list(chosen)].all(axis=0)
@@ -52,7 +54,12 @@ def induce(
     return tuple(found)
 
 
-def _conjunction(truth: _Mask, positive: _Weights, negative: _Weights) -> tuple[int, ...]:
+def _price(literal: Literal) -> float:
+    """What a literal has to be worth: as much as limits of the parameters that it speaks of, a sum a little more."""
+    return _PRICE * len(literal.feature.parameters) + _SUM_PRICE * (len(literal.feature.monomials) > 1)
+
+
+def _conjunction(truth: _Mask, prices: _Weights, positive: _Weights, negative: _Weights) -> tuple[int, ...]:
     """The best conjunction of literals by number."""
     best: tuple[float, tuple[int, ...]] = (0.0, ())
     beam: list[tuple[int, ...]] = [()]
@@ -65,7 +72,7 @@ def _conjunction(truth: _Mask, positive: _Weights, negative: _Weights) -> tuple[
                     continue
                 key = tuple(sorted((*state, number)))
                 if key not in grown:
-                    grown[key] = _worth(inside & truth[number], positive, negative, len(key))
+                    grown[key] = _worth(inside & truth[number], positive, negative, float(prices[list(key)].sum()))
         if not grown:
             break
         ranked = sorted(grown.items(), key=lambda one: (-one[1][0], one[0]))
@@ -79,14 +86,14 @@ def _conjunction(truth: _Mask, positive: _Weights, negative: _Weights) -> tuple[
     return best[1]
 
 
-def _worth(covered: _Mask, positive: _Weights, negative: _Weights, size: int) -> tuple[float, float]:
+def _worth(covered: _Mask, positive: _Weights, negative: _Weights, price: float) -> tuple[float, float]:
     """How promising a conjunction is while it grows, and how good it is as it stands (not above 0: no good)."""
     hits, misses = float(positive[covered].sum()), float(negative[covered].sum())
     if hits <= 0.0:
         return -1.0, -1.0
     recall, fallout = hits / float(positive.sum()), misses / max(float(negative.sum()), 1e-9)
     impurity = misses / (hits + misses)
-    return recall - fallout - _PRICE * size, recall - 2.0 * impurity - _PRICE * size
+    return recall - fallout - price, recall - 2.0 * impurity - price
 
 
 def sample_cuts(

@@ -66,6 +66,14 @@ class Range:
             return any(below < value < above for value in self.choices)
         return above - below > (1.0 if self.parameter.is_whole else share * self.width)
 
+    def steps(self, most: int) -> tuple[float, ...]:
+        """All its values, in order, where there are `most` at most; else none."""
+        if self.choices is not None:
+            return self.choices if len(self.choices) <= most else ()
+        if not self.parameter.is_whole or self.upper - self.lower >= most:
+            return ()
+        return tuple(float(value) for value in range(math.ceil(self.lower), math.floor(self.upper) + 1))
+
     def is_stepped(self) -> bool:
         """Whether between two values there need be no third."""
         return self.parameter.is_whole or self.choices is not None

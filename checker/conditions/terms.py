@@ -15,10 +15,10 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.conditions.condition import Feature, Literal
+from checker.conditions.condition import Extreme, Feature, Literal
 from checker.conditions.crossings import FINE, Crossing
 from checker.conditions.flights import Flights
-from checker.conditions.space import Point
+from checker.conditions.space import Point, Range
 from checker.simplest import shortest_decimal, simplest_between
 
 _MOST_FITS = 800
@@ -34,6 +34,7 @@ _SAME = 1e-12  # of a term's size: values nearer to each other are one
 _NEGLIGIBLE = 0.01  # a weight so small, where monomials are scaled to one spread, stands for none
 _Powers = tuple[int, ...]  # of the chosen parameters, in their order
 _Weights = tuple[float, ...]
+_Monomials = tuple[tuple[float, tuple[tuple[str, int], ...]], ...]
 
 # Monomials by the number of parameters. The last ones of two are ellipses with a centre of their own.
 _CURVED: dict[int, tuple[tuple[_Powers, ...], ...]] = {
@@ -123,8 +124,9 @@ class _Sides:
 
 def best_term(flights: Flights, crossings: Sequence[Crossing], size: int) -> tuple[Literal, list[Crossing]] | None:
     """The term of `size` parameters that explains the most crossings, with these."""
-    usable = [number for number, axis in enumerate(flights.space.parameters) if not axis.is_redrawn]
-    sets = list(combinations(usable, size))
+    axes = flights.space.parameters
+    sets = list(combinations(range(len(axes)), size))
+    plain = [each for each in sets if not any(axes[number].is_redrawn for number in each)]
     chance = np.random.default_rng(len(crossings))
     units = [_unit(number, size) for number in range(size)]
     fits = [_linear_fit(crossings, chosen, flights, units, 0.0, _MOST_FITS, chance) for chosen in sets]
@@ -133,7 +135,7 @@ def best_term(flights: Flights, crossings: Sequence[Crossing], size: int) -> tup
     if best is None or len(best.explained) < len(crossings):
         for monomials in _CURVED[size]:
             most = _CURVED_FITS * 2 ** (len(monomials) - 2)
-            fits += [_linear_fit(crossings, each, flights, monomials, _PRICE, most, chance) for each in sets]
+            fits += [_linear_fit(crossings, each, flights, monomials, _PRICE, most, chance) for each in plain]
         best = _best(fits)
     if best is None:
         return None
@@ -180,8 +182,8 @@ def _linear_fit(
     weights, group, is_above = next(one for one in tried if len(one[1]) >= enough)
     names = [flights.space.names[axis] for axis in chosen]
     products = [tuple((name, power) for name, power in zip(names, one, strict=True) if power) for one in monomials]
-    feature = Feature(tuple(zip(weights, products, strict=True)))
-    return _fit(feature, crossings, group, len(monomials), price, above=is_above)
+    feature = _of_extreme(tuple(zip(weights, products, strict=True)), is_above, flights.space.parameters)
+    return None if feature is None else _fit(feature, crossings, group, len(monomials), price, above=is_above)
 
 
 def _rounded(fitted: Sequence[_Weights]) -> list[_Weights]:
@@ -217,9 +219,28 @@ def _product_fit(
             continue
         seen.add(powers)
         group, is_above = _Sides(crossings, chosen, [powers]).explained((1.0,))
-        feature = Feature(((1.0, tuple(zip(names, powers, strict=True))),))
-        best = _best([best, _fit(feature, crossings, group, size, 0.0, above=is_above)])
+        feature = _of_extreme(((1.0, tuple(zip(names, powers, strict=True))),), is_above, flights.space.parameters)
+        if feature is not None:
+            best = _best([best, _fit(feature, crossings, group, size, 0.0, above=is_above)])
     return best
+
+
+def _of_extreme(monomials: _Monomials, is_above: bool, axes: Sequence[Range]) -> Feature | None:
+    """The feature; where parameters are redrawn of those draws that fail first, None where these differ in kind.
+
+    That is known where values are not below 0; elsewhere it is a guess, which fresh missions refute.
+    """
+    redrawn = {axis.name for axis in axes if axis.is_redrawn}
+    ways = {
+        (coefficient * power > 0.0) is is_above
+        for coefficient, powers in monomials
+        for name, power in powers
+        if name in redrawn
+    }
+    if len(ways) > 1:
+        return None
+    extreme = Extreme.ONLY if not ways else Extreme.GREATEST if ways.pop() else Extreme.LEAST
+    return Feature(monomials, extreme)
 
 
 def _exponents(logarithms: NDArray[np.float64]) -> _Powers | None:

@@ -141,12 +141,48 @@ def test_of_a_redrawn_parameter_the_draws_are_told_that_matter(tmp_path: Path) -
 
 
 @pytest.mark.slow
-def test_nothing_is_claimed_of_a_mean_of_draws(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("rule", "text"),
+    [
+        ("p + q <= 1.6;", "P + Q > 1.6 at some draw"),
+        ("p - q <= 0.4;", "P - Q > 0.4 at some draw"),
+        ("q - p <= 0.6;", "P - Q < -0.6 at some draw"),
+        ("p * q <= 0.7;", "P * Q > 0.7 at some draw"),
+    ],
+)
+def test_a_term_may_have_a_redrawn_parameter(tmp_path: Path, rule: str, text: str) -> None:
     more = '[parameters.P]\nmode = "intra"\nupdate = 8'
-    rule = "float s; s == p + q; s <= 1.3;"
-    found = conditions(campaign(tmp_path, rule, more=more, missions=60, final_tick=40))
+    (found,) = conditions(campaign(tmp_path, rule, more=more, missions=200, final_tick=40))
+    assert found is not None
+    assert condition_text(found) == text
+
+
+@pytest.mark.slow
+def test_nothing_is_claimed_of_draws_that_have_to_come_together(tmp_path: Path) -> None:
+    more = '[parameters.P]\nmode = "intra"\nupdate = 8\n[parameters.Q]\nmode = "intra"\nupdate = 8'
+    found = conditions(campaign(tmp_path, "p + q <= 1.5;", more=more, missions=100, final_tick=60))
+    assert found
     for one in found:
         assert one is None or not one.is_partial
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("rule", "text"),
+    [
+        ("if (u == true) { q <= 9.0; } else { r <= 4.0; }", "P <= 0 and R > 4, or P > 0 and Q > 9"),
+        (
+            "v == (p > 1.5); if (v == true) { q <= 8.0; } if (u == true) { r <= 8.0; }",
+            "R > 8 and P >= 1, or Q > 8 and P >= 2",
+        ),
+    ],
+)
+def test_a_setting_is_told_as_such_and_is_no_term(tmp_path: Path, rule: str, text: str) -> None:
+    ranges = f"int P = [0 {2 if 'v' in rule else 1}]; float Q = [0.0 10.0]; float R = [0.0 10.0];"
+    rule = f"bool u; bool v; u == (p > 0.5); {rule}"
+    (found,) = conditions(campaign(tmp_path, rule, ranges=ranges, missions=400))
+    assert found is not None
+    assert condition_text(found) == text
 
 
 @pytest.mark.slow

@@ -19,6 +19,7 @@ LEAST = 0.95
 FRESH_SEED = 987_654_321
 _GUARDS = "bool u; bool v; u == (p > {0}); v == (q < {1}); if (u == true) {{ if (v == true) {{ {2} }} }}"
 _WHOLE = "int P = [0 20]; int Q = [0 20]; float R = [0.0 1.0];"
+_SWITCH = "int P = [0 1]; float Q = [0.0 10.0]; float R = [0.0 10.0];"
 _CHOICE = "[parameters.P]\nvalues = [1, 2, 4, 8]"
 _AGAIN = '[parameters.P]\nmode = "intra"\nupdate = 10'
 
@@ -61,6 +62,10 @@ TRUTHS: dict[str, tuple[str, str, str, int]] = {
     "choice": ("p * q <= 60.0;", "float P = [0.0 10.0]; float Q = [0.0 20.0]; float R = [0.0 1.0];", _CHOICE, 10),
     "two faults": ("p <= 0.9;\n    p * q <= 0.6;", RANGES, "", 10),
     "drawn again": ("p <= 0.95;", RANGES, _AGAIN, 60),
+    "sum, drawn again": ("p + q <= 1.6;", RANGES, _AGAIN, 60),
+    "product, drawn again": ("p * q <= 0.7;", RANGES, _AGAIN, 60),
+    "switch": ("bool u; u == (p > 0.5); if (u == true) { q <= 9.0; } else { r <= 4.0; }", _SWITCH, "", 10),
+    "switch and sum": ("bool u; u == (p > 0.5); if (u == true) { q + r <= 12.0; }", _SWITCH, "", 10),
 }
 
 
