@@ -5,9 +5,13 @@ from math import inf
 import pytest
 
 from runtime.constraints.domains.tags import INF
+from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.plan import tags
 from runtime.plan.readout.cause_rendering import words
 from runtime.plan.readout.statements import ResourceTerm, Term
+from runtime.plan.readout.terms import TermReader
+from runtime.plan.tags import NONE
+from tests.plan.models import loaded
 
 
 @pytest.mark.parametrize(
@@ -63,3 +67,29 @@ def test_a_level_that_is_too_low_at_no_certain_time_is_so_in_the_end(at: int, wh
     alone = when if at == 17 else "by these uses alone"  # something may fill it in the end
     assert used == f"the level of pond falls to 0 {alone}, its least is 100: Reservoir.consume#1 900"
     assert "4503" not in words(ResourceTerm("pond", tags.TOO_LOW, at, at, 1.0, 100.0, 900.0, True, at > 17, ()))
+
+
+FIELDS = """
+class Field { }
+Field a = new Field(); Field b = new Field(); Field c = new Field();
+close();
+Field one;
+"""
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "kept"), [("b", "", ("b", "c")), ("", "b", ("a", "b")), ("", "", ("a", "b", "c"))]
+)
+def test_a_bound_of_an_object_that_is_open_on_a_side_names_the_objects(
+    first: str, last: str, kept: tuple[str, ...]
+) -> None:
+    database = loaded(FIELDS)
+    names, engine = database.objects.names, database.engine
+    v = next(int(v) for v in database.plan.globals if TermReader(database, str).variable(v) == "one")
+    lower = float(names.index(first)) if first else -inf
+    upper = float(names.index(last)) if last else inf
+    assert engine.restrict_base(v, lower, upper, NONE, NONE)
+    cause = Cause(CauseKind.RESTRICTION, engine.restriction_head[v], NONE, NONE)
+    term = TermReader(database, str).term(cause)
+    assert isinstance(term, Term)
+    assert term.values == kept

@@ -1,7 +1,7 @@
 """Causes as terms: an edge, restriction or constraint of the engine in, names and numbers that outlive it out."""
 
 from collections.abc import Callable
-from math import inf
+from math import inf, isfinite
 from sys import float_info
 
 from compiler.program import TOKEN_VARIABLES
@@ -111,11 +111,23 @@ class TermReader:
         if len(members) == 1:
             lower = upper = members[0]
         elif not members and kind not in (KIND_INT, KIND_FLOAT):
-            members = [float(x) for x in range(int(lower), int(upper) + 1)]
+            members = self._between(v, lower, upper)
         shown = [set_text(self.database.prototypes, kind, [x], self.database.objects.names)[1:-1] for x in members]
         if kind not in (KIND_INT, KIND_FLOAT):
             shown.sort()
         return Term("bounds", (self.argument(v), _number(lower, kind), _number(upper, kind)), tuple(shown))
+
+    def _between(self, v: int, lower: float, upper: float) -> list[float]:
+        """The values of a variable of no numbers within bounds; an open one is as the variable's others have it."""
+        engine = self.engine
+        r = engine.restriction_head[v]
+        while r >= 0:
+            listed = engine.restriction_values[r] if engine.restriction_flags[r] & FLAG_VALUES else []
+            lower = lower if isfinite(lower) else min(listed, default=engine.restriction_lo[r])
+            upper = upper if isfinite(upper) else max(listed, default=engine.restriction_hi[r])
+            r = engine.restriction_next[r]
+        is_known = isfinite(lower) and isfinite(upper)
+        return [float(x) for x in range(int(lower), int(upper) + 1)] if is_known else []
 
     def _constraint(self, c: int) -> Term | ResourceTerm:
         engine = self.engine
