@@ -22,6 +22,8 @@ cdef class _Window(PlanningScope):
     cdef public bint is_present, is_reactive
     cdef public set ignored, observed
     cdef public list left_open
+    cdef public dict overtaken
+    cdef public set behind
 
     cpdef bint admits_token(self, long long t) except -1
 
@@ -42,6 +44,12 @@ cdef class _Window(PlanningScope):
     cpdef bint may_begin(self, long long t) except -1
 
     cpdef bint begins_in_time(self, long long t) except -1
+
+    @cython.locals(bench=Workbench)
+    cpdef bint may_overtake(self, long long t, long long other) except -1
+
+    @cython.locals(bench=Workbench, found=bint, key=tuple, other="long long", t="long long")
+    cpdef bint has_delayed(self) except -1
 
     @cython.locals(rows=Rows)
     cpdef bint _is_left_over(self, long long t) except -1

@@ -58,6 +58,9 @@ class _Window(PlanningScope):
         self.is_reactive = False
         self.observed: set[int] = set()  # timelines of others of whom nothing is asked
         self.left_open: list[int] = []  # arguments of what is to be observed there, of any value so far
+        # What was put before something that waited, with from when on that could begin; and what shall not be any more.
+        self.overtaken: dict[tuple[int, int], tuple[int, int, float]] = {}
+        self.behind: set[tuple[int, int]] = set()
         self.undrawn: dict[int, int] = {}  # the keys of tokens, by number, for which nothing is drawn yet
         self.left_out = left_out
         self.ignored = {o for o in range(len(bench.database.objects.names)) if bench.mode(o) == "Ignore"}
@@ -134,6 +137,32 @@ class _Window(PlanningScope):
     def begins_in_time(self, t: int) -> bool:
         """Whether the rules of `t`, which have just fired, leave it a time to begin; if not, that is a conflict."""
         return self.may_begin(t) or self.bench.at_least(self.bench.start(t), self.tick, SPAN_CLOCK, t)
+
+    def may_overtake(self, t: int, other: int) -> bool:
+        """Whether `t` may be put before `other`, which was asked for sooner and waits for something else."""
+        bench = self.bench
+        key = (int(bench.rows.key[t]), int(bench.rows.key[other]))
+        if key in self.behind:
+            return False
+        if key not in self.overtaken:
+            self.overtaken[key] = (t, other, bench.lower(bench.start(other)))
+        return True
+
+    def has_delayed(self) -> bool:
+        """Whether what was put before something that waited has to wait as long, itself; from then on it stays behind.
+
+        That it waits for the same, a command tells only when it has its place.
+        """
+        bench = self.bench
+        found = False
+        for key, (t, other, begin) in self.overtaken.items():
+            if key != (bench.rows.key[t], bench.rows.key[other]):
+                continue
+            if begin <= bench.lower(bench.start(t)) and begin < bench.lower(bench.start(other)):
+                self.behind.add(key)
+                found = True
+        self.overtaken.clear()
+        return found
 
     def _is_left_over(self, t: int) -> bool:
         """Whether `t` is undecided, and no goal, or active without a place in a sequence."""
@@ -237,6 +266,10 @@ class Planner:
         self._begin(tick, end)
         outcome = self.solver.step()
         TIME_LIMIT.check(None if outcome == PLAN else self)
+        if outcome == PLAN and self.window.overtaken and self.window.has_delayed():
+            self.solver.undo_all()
+            self.is_fresh = True
+            return EPISODE_MOVED
         if outcome == PLAN and self.window.left_open and self.window.is_any_bound():
             self.pause()
             return EPISODE_MOVED
@@ -267,6 +300,7 @@ class Planner:
         if self.is_fresh:
             self.window.tick, self.window.end, self.window.is_present = tick, end, False
             self.window.left_open = []
+            self.window.overtaken.clear()
             # If nothing was propagated since the present was found without flaws, it is the agenda that is wanted.
             if self.resolved == self.bench.engine.epoch:
                 self.solver.resume()

@@ -21,6 +21,8 @@ cdef class PlanningScope:
 
     cpdef bint begins_in_time(self, long long t) except -1
 
+    cpdef bint may_overtake(self, long long t, long long other) except -1
+
     cpdef bint admits_variable(self, long long v) except -1
 
 

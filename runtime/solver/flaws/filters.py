@@ -35,6 +35,10 @@ class PlanningScope:
         """Whether the rules of token `t`, which have just fired, leave it a time to begin; else that is a conflict."""
         return t >= 0
 
+    def may_overtake(self, t: int, other: int) -> bool:
+        """Whether token `t` may be put before `other`, which was asked for sooner and waits for something else."""
+        return t != other
+
     def admits_variable(self, v: int) -> bool:
         """Whether variable `v` may be decided; asked again when its domain or its token's times change."""
         return v >= 0

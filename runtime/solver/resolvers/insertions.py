@@ -92,12 +92,15 @@ def _list_behind_goals(agenda: Agenda, stack: Decisions, start: int, t: int) -> 
         begin = engine.lb[theirs + START]
         asker = _origin(agenda, after)
         is_sent = (agenda.rows.flags[after] & FLAG_SENT) != 0
-        if begin > free or not (is_sent or agenda.rows.flags[asker] & FLAG_GOAL):
+        if not (is_sent or agenda.rows.flags[asker] & FLAG_GOAL):
             continue
         if is_child:
             is_first = asker != origin and engine.base_lower(agenda.rows.var0[asker] + START) <= engine.lb[asked]
         else:
             is_first = after == asker and engine.base_lower(theirs + START) <= engine.lb[asked]
+        if begin > free and (not is_first or agenda.filters.scope.may_overtake(t, after)):
+            continue
+        if not is_child:
             is_first = is_first or begin <= engine.lb[mine]
         if is_first or is_sent:
             first = at + 1
