@@ -104,6 +104,8 @@ def _uses_of(bench: Bench, resource: str) -> Iterator[_ResourceUse]:
             until = float(tok.standing.record.tick if tok.standing.is_cut else tok.record.tick)
             if use.earliest > until or (use.end is None and use.start > until):
                 continue
+            if use.earliest == -inf:  # the plan took it for something of before the mission, and does so no more
+                use = replace(use, end=until, latest=until)
             ends = (None, inf) if use.end is None else (min(use.end, until), min(use.latest, until))
             use = replace(use, start=min(use.start, until), end=ends[0], latest=ends[1])
         if use.end is not None:

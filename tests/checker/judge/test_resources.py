@@ -6,7 +6,7 @@ from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
 from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.record import MissionRecord, ValueRange
-from tests.executive.flying import flown, planner
+from tests.executive.flying import flown, lines, planner, simulator
 
 MODEL = """
 Reservoir battery = new Reservoir(100.0, 20.0, 100.0);
@@ -97,3 +97,34 @@ def test_what_is_cut_off_twice_was_planned_anew_in_between() -> None:
     record = MissionRecord((reactor._replace(tokens=tuple(tokens)),))
     report = judge_mission(mission.agent, mission.programs, mission.outcome, record)
     assert not [disagreement_text(one) for one in report.disagreements if one.kind == "level"]
+
+
+DEV = 'class Dev extends AgentTimeline { predicate Off { } predicate On { } Dev(Mode m) { super(m, "Off"); } }'
+TASK = """
+class Task extends AgentTimeline {
+    predicate Idle { } predicate Prep { } predicate Do { } predicate Drink { }
+    Task(Mode m) { super(m, "Idle"); }
+}
+Reservoir tank = new Reservoir(10.0, 1.0, 10.0);
+Task::Prep { any(tank.consume u); u.quantity == 4.0; u.time == end; }
+Task::Do { after(object.Prep p); contains(Dev.On x); x.end == end; x.duration <= 6; }
+Task::Drink { any(tank.consume u); u.quantity == 6.0; u.time == start; }
+Task task = new Task(Internal);
+Task other = new Task(Internal);
+Dev dev = new Dev(External);
+close();
+"""
+
+
+def test_what_a_plan_took_for_something_of_before_the_mission_counts_until_a_repair_gives_that_up() -> None:
+    world = simulator("sim", f"{DEV} Dev::On {{ duration == 10; }} Dev dev = new Dev(Internal); close();", "dev")
+    goals = (
+        GoalConfiguration("task", "Do", at=2, start=(3, 40)),
+        GoalConfiguration("other", "Drink", at=16, start=(17, 17)),
+    )
+    flight = flown(planner("plan", DEV + TASK, "task other", "dev", latency=1), world, until=18, goals=goals)
+    assert lines(flight.outcome, "relax")
+    assert flight.outcome.abort is None
+    assert flight.report.holds
+    (level,) = flight.report.profiles
+    assert [one for _, one in level.levels] == [6.0, 10.0, 4.0]
