@@ -26,6 +26,7 @@ from nddl_lang.syntax.nodes import (
     CallConstraint,
     CallExpr,
     ClassDecl,
+    ConstructorDecl,
     ExprConstraint,
     FloatLiteral,
     Foreach,
@@ -187,6 +188,8 @@ class _Reader:
                     if isinstance(member, PredicateDecl):
                         names = self._scopes.of_predicate(owner.name, member.name.name)
                         yield from self._body(member.body, f"{owner.name}.{member.name.name}", member.span, names)
+                    elif isinstance(member, ConstructorDecl):  # what it reads is read; nothing is tried there
+                        yield from (self._site(each, "", each.span, ()) for each in member.body)
             case VariableDecl(declarators=declarators):
                 rows = self._rows.get(statement, ())
                 more = [self._edit(EditKind.SWAP, span, new) for span, new, _ in rows]

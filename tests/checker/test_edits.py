@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from checker.counterfactual.bounds import sets_value
+from checker.counterfactual.usage import usage_of
 from checker.mutation.choice import mutants_of
 from checker.mutation.edits import EditSite, SmallEdit, edited, sites_of
 from checker.mutation.kinds import REPAIRS, EditKind
@@ -136,3 +137,15 @@ def test_a_relation_is_turned_round_and_a_result_changes_places_with_what_it_com
 )
 def test_a_demand_that_gives_a_value_is_known(demand: str, sets: bool) -> None:
     assert sets_value(demand) is sets
+
+
+def test_what_a_constructor_reads_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "tank.nddl"
+    path.write_text(
+        "float LEAST = 0.0; float IDLE = 9.0;\n"
+        "class Tank { Reservoir fuel; Tank(float level) { fuel = new Reservoir(level, LEAST, 100.0); } }\n"
+        "Tank tank = new Tank(30.0);\n"
+    )
+    usage = usage_of(sites(path))
+    assert usage.is_idle("IDLE")
+    assert not usage.is_idle("LEAST")
