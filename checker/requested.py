@@ -8,6 +8,7 @@ from collections.abc import Collection, Container, Iterable, Iterator, Mapping, 
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from checker.asked_children import children_asked_for
 from checker.influence import Branch, InfluenceLine, branch_name, branch_of, line_of
 from checker.names import relative_name
 from checker.single_values import numbers_of, single_value
@@ -57,7 +58,7 @@ class _Asking:
     """The lines of a rule that say what a parameter of a child is.
 
     It comes from the own parameters `behind`, of which those `handed` on have the same value. All parameters of the
-    child that are `passed` on stand with the own ones whose values they have.
+    child that are `passed` on stand with the own ones whose values they have. `token` tells of the one that asked.
     """
 
     rule: str
@@ -65,6 +66,7 @@ class _Asking:
     behind: tuple[str, ...]
     handed: frozenset[str]
     passed: tuple[tuple[str, str], ...] = ()
+    token: Event | None = None
 
 
 def lines_that_ask(
@@ -90,24 +92,24 @@ def lines_that_ask(
     first: _Wanted = (variable.token.predicate, variable.name), _value(element)
     numbers = {reactor: dict(numbers_of(program)) for reactor, program in programs.items()}
     done: set[tuple[str, str]] = set()
-    waiting = [first]
+    request = _request_for(first, events, timelines)
+    waiting: list[tuple[tuple[str, str], float | str | None, Event | None]] = [(*first, request)]
     while waiting:
-        wanted, value = waiting.pop(0)
+        wanted, value, asked = waiting.pop(0)
         if wanted in done:
             continue
         done.add(wanted)
         asking = [
-            _asking(program, rule, wanted, numbers[reactor], value, taken)
+            _asking(program, rule, wanted, numbers[reactor], value, taken, asked, events)
             for reactor, program in programs.items()
             for rule in (program.rules if wanted != first[0] or reactor != variable.reactor else ())
             if rule.predicate.rpartition(".")[2] in held
         ]
         if wanted == first[0]:
-            request = _request_for(first, events, timelines)
             asking = [one for one in asking if one.lines and _asked_so(one, request, events)] or asking
         for one in _with_value(asking, value, events):
             found |= dict.fromkeys(one.lines)
-            waiting += [((one.rule, name), value if name in one.handed else None) for name in one.behind]
+            waiting += [((one.rule, name), value if name in one.handed else None, one.token) for name in one.behind]
     return tuple(
         replace(line, place=replace(line.place, file=relative_name(line.place.file, root)))
         for line in reversed(list(found)[:_MOST])
@@ -246,6 +248,10 @@ def _asked_so(asking: _Asking, request: Event | None, events: Sequence[Event]) -
     )
 
 
+def _tells_of(event: Event, rule: RuleCode) -> bool:
+    return event.kind in _TELLING and event.predicate == rule.predicate.rpartition(".")[2]
+
+
 def _values(asking: _Asking, events: Sequence[Event]) -> set[object]:
     """The values that tokens had, observed or asked for, of the parameters that a rule hands on."""
     wanted = asking.rule.rpartition(".")[2]
@@ -260,12 +266,23 @@ def _asking(
     numbers: Mapping[Operand, float | str],
     value: float | str | None,
     taken: Container[Branch] | None,
+    request: Event | None = None,
+    events: Sequence[Event] = (),
 ) -> _Asking:
-    """The lines of a rule that say what a parameter of a child is, and the own parameters that this comes from."""
+    """The lines of a rule that say what a parameter of a child is, and the own parameters that this comes from.
+
+    Of several children those count for which the `request` may have been.
+    """
     predicate, name = wanted
     body = [step for step, within in branched_instructions(rule.body) if taken is None or _is_taken(within, taken)]
     at = _position(program, predicate, name)
     children = {step.slot for step in body if isinstance(step, Child) and step.predicate == predicate}
+    token: Event | None = None
+    if request is not None and children:
+        tokens = [one for one in single_events(events) if _tells_of(one, rule)]
+        parameters = _names(program, rule.predicate), _names(program, predicate)
+        fitting, token = children_asked_for(rule, predicate, parameters, request, tokens, numbers)
+        children &= fitting
     reached: set[Operand] = {TokenVariable(slot, at) for slot in children} if at >= 0 else set()
     posts: list[Post] = []
     grows = bool(reached)
@@ -293,7 +310,7 @@ def _asking(
         if isinstance(one, TokenVariable) and one.token == 0 and 0 <= one.variable - FIRST_PARAMETER < len(names)
     }
     return _Asking(
-        rule.predicate, tuple(lines), tuple(behind), frozenset(handed), tuple(_passed(program, rule, predicate))
+        rule.predicate, tuple(lines), tuple(behind), frozenset(handed), tuple(_passed(program, rule, predicate)), token
     )
 
 
