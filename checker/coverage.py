@@ -30,10 +30,11 @@ _TOLD = (EventKind.REQUEST, EventKind.REFUSE, EventKind.REJECT, EventKind.RELAX,
 
 @dataclass(frozen=True, slots=True)
 class _Branch:
-    """A branch of a guard: its site, and the guards inside it."""
+    """A branch of a guard: its site, and the guards inside it, of which some stand in a loop over objects."""
 
     site: int
     guards: "tuple[_Fork, ...]"
+    looped: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +67,7 @@ class _Sites:
 
     def _rule(self, rule: RuleCode) -> _Branch:
         site = self._add(Site(rule.predicate, "", rule.span))
-        return _Branch(site, tuple(self._forks(rule.predicate, rule.body, ClockGuards(self._clock))))
+        return _made(site, self._forks(rule.predicate, rule.body, ClockGuards(self._clock)))
 
     def _forks(
         self,
@@ -91,7 +92,7 @@ class _Sites:
 
     def _branch(self, site: Site, body: Sequence[Instruction], guards: ClockGuards) -> _Branch:
         number = self._add(site)
-        return _Branch(number, tuple(self._forks(site.rule, body, guards, is_open=site.is_open)))
+        return _made(number, self._forks(site.rule, body, guards, is_open=site.is_open))
 
     def _add(self, site: Site) -> int:
         self.sites.append(site)
@@ -100,31 +101,37 @@ class _Sites:
     def note(self, run: BodyRun | RunColumns, at: _Branch, found: set[int]) -> None:
         """Add the sites that a run of a body, or that runs of it, reached."""
         found.add(at.site)
-        forks = list(at.guards)
-        loops = sum(fork.is_looped for fork in forks)
+        forks, loops = at.guards, at.looped
+        if not forks:
+            return
+        guards: Sequence[GuardRun | GuardColumns] = run.guards
         if loops:  # the guards of the loop stand once per object
             before = next(number for number, fork in enumerate(forks) if fork.is_looped)
-            rounds = (len(run.guards) - (len(forks) - loops)) // loops
-            forks = [*forks[:before], *forks[before : before + loops] * max(rounds, 0), *forks[before + loops :]]
-        guards: Sequence[GuardRun | GuardColumns] = run.guards
+            rounds = (len(guards) - (len(forks) - loops)) // loops
+            forks = (*forks[:before], *forks[before : before + loops] * max(rounds, 0), *forks[before + loops :])
         for fork, guard in zip(forks, guards, strict=False):
             for branch, inner in _taken(fork, guard):
-                found.add(branch.site)
-                if inner is not None:
+                if inner is None:
+                    found.add(branch.site)
+                else:
                     self.note(inner, branch, found)
 
 
-def _taken(fork: _Fork, guard: GuardRun | GuardColumns) -> Iterator[tuple[_Branch, BodyRun | RunColumns | None]]:
+def _made(site: int, forks: Iterator[_Fork]) -> _Branch:
+    guards = tuple(forks)
+    return _Branch(site, guards, sum(fork.is_looped for fork in guards))
+
+
+def _taken(fork: _Fork, guard: GuardRun | GuardColumns) -> tuple[tuple[_Branch, BodyRun | RunColumns | None], ...]:
     """The branches of a guard that were taken, and what ran there."""
     if isinstance(guard, GuardRun):
-        branch = {"then": fork.then, "else": fork.otherwise}.get(guard.branch)
-        if branch is not None:
-            yield branch, guard.run
-        return
-    if guard.is_true.any():
-        yield fork.then, guard.then
-    if not guard.is_true.all():
-        yield fork.otherwise, guard.otherwise
+        if guard.branch == "then":
+            return ((fork.then, guard.run),)
+        return ((fork.otherwise, guard.run),) if guard.branch == "else" else ()
+    then, otherwise = (fork.then, guard.then), (fork.otherwise, guard.otherwise)
+    if guard.is_true.all():
+        return (then,) if len(guard.is_true) else ()
+    return (then, otherwise) if guard.is_true.any() else (otherwise,)
 
 
 class Universe:
@@ -150,15 +157,23 @@ class Universe:
             sites = self._of[id(program)]
             for run in _runs(reactor):
                 sites.note(run, sites.rules[run.rule], found)
-        shapes: dict[int, set[tuple[str, ...]]] = {_EVENTS: set(), _TROUBLES: set()}
-        for event in single_events(events):
-            if event.kind in _TOLD:
-                shape = (event.kind.value, event.reactor, event.timeline, event.predicate, str(event.stage or ""))
-                shapes[_EVENTS if event.kind is EventKind.REQUEST else _TROUBLES].add(shape)
+        told = {
+            (event.kind, event.reactor, event.timeline, event.predicate, event.stage)
+            for event in single_events(events)
+            if event.kind in _TOLD
+        }
+        numbers = {
+            _number(_EVENTS if kind is EventKind.REQUEST else _TROUBLES, (kind.value, *names, str(stage or "")))
+            for kind, *names, stage in told
+        }
         for reactor in record.reactors:
-            shapes[_EVENTS] |= {("token", reactor.reactor, *pair) for pair in _held(reactor)}
-        numbers = (first + zlib.crc32("\0".join(one).encode()) for first, of in shapes.items() for one in of)
+            numbers |= {_number(_EVENTS, ("token", reactor.reactor, *pair)) for pair in _held(reactor)}
         return (*sorted(found), *sorted(numbers))
+
+
+def _number(first: int, shape: tuple[str, ...]) -> int:
+    """The feature for events of one shape."""
+    return first + zlib.crc32("\0".join(shape).encode())
 
 
 def is_event(feature: int) -> bool:
@@ -183,8 +198,9 @@ def _held(reactor: ReactorRecord) -> set[tuple[str, str]]:
     """Which predicates began on which timelines."""
     tokens = reactor.tokens
     if not isinstance(tokens, TokenColumns):
-        begun = (one for one in tokens if isinstance(one.start, int) and one.start <= reactor.last_tick)
-        return {(str(token.object), token.predicate) for token in begun}
+        last = reactor.last_tick
+        begun = {(one.object, one.predicate) for one in tokens if isinstance(one.start, int) and one.start <= last}
+        return {(str(thing), predicate) for thing, predicate in begun}
     count = len(tokens.names)
     pairs = tokens.times.objects * count + tokens.times.predicates
     pairs = np.flatnonzero(np.bincount(pairs[tokens.times.starts <= reactor.last_tick]))
