@@ -15,7 +15,7 @@ from runtime.plan.resources.profile import Profile
 from runtime.plan.resources.resources import Resources
 from runtime.plan.tags import NONE
 
-_ROOM = 64
+_ROOM = 8  # uses at first: few models have resources, and what there is is restored before each mission
 
 
 class Envelope:
