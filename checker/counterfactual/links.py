@@ -137,6 +137,8 @@ class Links:
             case Child(slot=slot, origin=origin) | Relate(target=slot, origin=origin):
                 yield from (("token", tokens[one], TIMES) for one in (slot, origin) if one in tokens)
                 yield (*scope, "child", slot)
+                if isinstance(step, Child) and isinstance(step.object, LocalVariable):  # which lines choose
+                    yield from self._operand(step.object, scope, tokens)
             case NewToken(predicate=predicate):
                 yield ("token", predicate, TIMES)
             case Guard(condition=condition, decided_by=deciders):

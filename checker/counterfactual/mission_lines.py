@@ -13,12 +13,13 @@ from pathlib import Path
 
 from checker.causes import failed_by, timed_requests
 from checker.counterfactual.candidates import Candidate, Suspicion
+from checker.counterfactual.goals_behind import far_of, leading_goals, levelled_goals, promised_goals, under_way
 from checker.counterfactual.promises import first_violated
 from checker.mission import Mission
 from checker.mutation.edits import EditSite, SmallEdit
 from checker.mutation.mission_edits import is_due, mission_sites
 from checker.single_values import single_value
-from compiler.program import DomainConstant
+from compiler.program import DomainConstant, Program
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.read import real_path
 from runtime.executive.configuration import GoalConfiguration, PropertyConfiguration
@@ -26,7 +27,7 @@ from runtime.executive.events import heads_of, single_events
 from runtime.executive.messages import Arguments
 from runtime.executive.outcome import ConflictElement, ElementKind, EventKind, Outcome
 
-_SPOKEN, _DEAF, _BROKEN, _LOST, _ABORTED, _ASKED, _OTHERS = 0.0, 0.0, 0.5, 1.0, 2.0, 2.5, 3.0
+_SPOKEN, _DEAF, _BROKEN, _BEGUN, _LOST, _ABORTED, _ASKED, _OTHERS = 0.0, 0.0, 0.5, 0.5, 1.0, 2.0, 2.5, 3.0
 _OWNER, _OTHER_OWNER = 0.5, 1.5  # of what a reactor in Python is given that owns what was given up
 _MOST_ASKERS = 4  # goals behind a request, the most urgent first
 _AMONG = 0.1  # of a number that lies among those of the other goals
@@ -34,7 +35,11 @@ _GIVEN_UP = (EventKind.REJECT, EventKind.REFUSE)
 
 
 def mission_lines(
-    mission: Mission, outcome: Outcome, supplying: Collection[str] = (), findings: Sequence[Diagnostic] = ()
+    mission: Mission,
+    outcome: Outcome,
+    supplying: Collection[str] = (),
+    findings: Sequence[Diagnostic] = (),
+    programs: Sequence[Program] = (),
 ) -> list[Candidate]:
     """The times of goals that found no place, then what says how the reactors plan, that which ended first.
 
@@ -52,7 +57,14 @@ def mission_lines(
     violated = first_violated(outcome) if is_judged else None
     broken = violated.name if violated is not None else ""
     behind = _behind_requests(mission, ended, elements, outcome)
-    cut_off = _cut_off(mission, outcome)
+    late = _cut_off(mission, outcome)
+    shares: dict[int, float] = {}
+    if is_judged and programs:
+        late |= promised_goals(outcome, mission.agent, programs)
+        shares = levelled_goals(outcome, mission.agent, programs)
+    leading = leading_goals(outcome, mission.agent, programs)
+    behind = (behind & leading) or behind
+    begun = under_way(leading, outcome, mission.agent)
     lines = {(str(real_path(Path(one.span.source.name))), one.span.line) for one in findings}
     due = _due(mission, outcome)
     troubled = {line for line, _ in given_up} | set(outcome.abort.timelines if outcome.abort is not None else ())
@@ -63,14 +75,15 @@ def mission_lines(
             is_supply = goal.predicate in supplying
             is_lost = (goal.timeline, goal.predicate) in given_up
             sites = [_warned(one, lines) for one in sites]
-            is_without_time = number in cut_off or any(one.wanted for one in sites)
+            is_without_time = number in late or any(one.wanted for one in sites)
             if not (is_lost or is_supply or broken or number in behind or is_without_time):
                 continue
             far = _SPOKEN + _AMONG if is_supply else _LOST if is_lost or is_without_time else _OTHERS
         elif table == "asked":
             spoken = [one for one in sites if any(one.holds(one.file, place.line) for place in asked)]
-            sites = [one for one in sites if number == due or one.wanted or one in spoken]
-            far = _ASKED
+            is_near = number in shares or number in begun
+            sites = [one for one in sites if number == due or one.wanted or one in spoken or is_near]
+            far = far_of(shares, number) if number in shares else _BEGUN if number in begun else _ASKED
         elif table == "setting":
             owned = set(mission.agent.coded[number].internal)
             far = _OWNER if owned & troubled else _OTHER_OWNER
@@ -90,8 +103,9 @@ def mission_lines(
             if table == "goal" and not is_spoken:  # later where others were asked for it in time, or at any time
                 is_spoken = number in behind
                 site = replace(site, edits=site.edits[-1:] if is_spoken else site.edits[:-1] or site.edits)
-                is_spoken = is_spoken or number in cut_off
-            source = Suspicion.CONFLICT if is_spoken or table == "property" else Suspicion.TRACE
+                is_spoken = is_spoken or number in late
+            is_promised = table == "property" or (table == "asked" and number in shares)
+            source = Suspicion.CONFLICT if is_spoken or is_promised else Suspicion.TRACE
             nearest = _SPOKEN + _AMONG * bool(site.unlike)
             is_warned = table == "goal" and bool(site.wanted)
             far_off = nearest if is_spoken or site.wanted else far

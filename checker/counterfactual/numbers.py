@@ -5,7 +5,7 @@ import re
 from dataclasses import replace
 
 from checker.mutation.edits import EditSite, SmallEdit
-from checker.mutation.kinds import NUMERIC, EditKind
+from checker.mutation.kinds import NUMBERS, EditKind
 
 _COMPUTED = re.compile(r"\s*[A-Za-z_][\w.]*\s*==.*[A-Za-z_)].*;", re.DOTALL)
 _TWICE = 2.0  # octaves
@@ -60,7 +60,7 @@ def _same_way(edit: SmallEdit, site: EditSite) -> list[SmallEdit]:
 
 def is_raised(edit: SmallEdit) -> bool:
     """Whether a number becomes greater."""
-    return edit.kind in NUMERIC and float(edit.new) > float(edit.old)
+    return edit.kind in NUMBERS and float(edit.new) > float(edit.old)
 
 
 def octaves(edit: SmallEdit) -> float:
@@ -76,4 +76,4 @@ def digits(number: str) -> int:
 
 def is_apart(one: SmallEdit, other: SmallEdit) -> bool:
     """Whether two edits are not both about the number at one place."""
-    return one.kind not in NUMERIC or other.kind not in NUMERIC or one.begin != other.begin
+    return one.kind not in NUMBERS or other.kind not in NUMBERS or one.begin != other.begin

@@ -11,7 +11,7 @@ from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.causes import failed_by
 from checker.codes import OUT_OF_TIME
-from checker.counterfactual.candidates import candidates_of
+from checker.counterfactual.candidates import Candidate, candidates_of
 from checker.counterfactual.damage import HEAVY, voided_of
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.effort import Bounds, Stopwatch
@@ -141,7 +141,9 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     candidates = candidates_of(outcome, graph, Path(agent.root), agent.properties, exercised, text, coded=agent.coded)
     candidates = with_remarks(candidates, [one for one in world.findings if one.code is not OUT_OF_TIME])
     supplying = graph.supplying(lacking_in(failed_by(outcome).conflict))
-    last = mission_lines(world.mission, outcome, supplying, world.findings) if world.mission is not None else ()
+    last: Sequence[Candidate] = ()
+    if world.mission is not None:
+        last = mission_lines(world.mission, outcome, supplying, world.findings, world.programs)
     bounds = bounds.grown(sum(len(one.site.edits) for one in candidates), len(outcome.events))
     trials = try_out(candidates, missions, usage, partial(_fly, world), bounds, last, graph.beside)
     return replace(trials, loose=loose_ends(graph, candidates, usage))

@@ -22,7 +22,7 @@ from checker.counterfactual.numbers import (
 from checker.counterfactual.usage import Usage
 from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, is_asked_for, sign_of
 from checker.mutation.edits import EditSite, SmallEdit
-from checker.mutation.kinds import DROPPED, NUMERIC, EditKind
+from checker.mutation.kinds import DROPPED, NUMBERS, EditKind
 from checker.mutation.missing_lines import is_namesake, said_of
 
 _TWICE = re.compile(r"([A-Za-z_][\w.]*)\s*[+*]\s*\1")  # one name, added to itself or multiplied
@@ -119,7 +119,7 @@ def _is_told(edit: SmallEdit, site: EditSite, usage: Usage) -> bool:
 
 def _structural(edit: SmallEdit, usage: Usage) -> float:
     """What a relation, a sign or a comparison costs where missions pass that it is a part of, too."""
-    is_shared = edit.kind not in (*NUMERIC, EditKind.LIMIT, EditKind.VALUE)  # a value matters for some arguments only
+    is_shared = edit.kind not in (*NUMBERS, EditKind.LIMIT, EditKind.VALUE)  # a value matters for some arguments only
     return _EDGE * usage.passing if is_shared else 0.0
 
 

@@ -25,13 +25,13 @@ from checker.counterfactual.damage import (
 from checker.counterfactual.effort import Bounds, Stopwatch
 from checker.counterfactual.follow_ups import alternatives, follow_ups
 from checker.counterfactual.missions import Missions
-from checker.counterfactual.numbers import between, is_doubling
+from checker.counterfactual.numbers import between, is_doubling, is_raised
 from checker.counterfactual.orders import is_order_turned
 from checker.counterfactual.smallness import cost_of, delay_of, first_edits, is_probe
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import Usage
 from checker.mutation.edits import EditSite, SmallEdit
-from checker.mutation.kinds import NUMERIC, EditKind
+from checker.mutation.kinds import NUMBERS, EditKind
 from checker.oracle import Verdict
 
 _NEARNESS = 0.3  # of the distance, beside how late an edit is tried at its line
@@ -161,7 +161,7 @@ def try_out(
     turns = Turns(beside)
     named: Counter[tuple[str, tuple[int, int], str]] = Counter()
     for candidate in (*last, *candidates):
-        earlier: Counter[int] = Counter()
+        earlier: Counter[tuple[int, bool]] = Counter()
         is_spoken = _is_spoken(candidate)
         far = max(candidate.far - candidate.nearer - _CONSTANT * candidate.site.is_number, 0.0)
         for delay, edit in first_edits(candidate.site, usage):
@@ -174,8 +174,9 @@ def try_out(
             if is_spoken and is_order_turned(edit, candidate.site):
                 at = min(at, _TURNED)
             elif edit.kind is not EditKind.SWAP:
-                at += _TURN * earlier[edit.begin] + _PLACE * len(earlier) * (edit.kind is not EditKind.VALUE)
-                earlier[edit.begin] += 1
+                way = edit.begin, edit.kind is EditKind.SETTING and is_raised(edit)  # either way may be right
+                at += _TURN * earlier[way] + _PLACE * len(earlier) * (edit.kind is not EditKind.VALUE)
+                earlier[way] += 1
             if edit.kind is EditKind.NAME and not usage.is_fitting(edit, candidate.site):
                 at += _NAMESAKE * named[candidate.site.file, candidate.site.scope, edit.new]
                 named[candidate.site.file, candidate.site.scope, edit.new] += 1
@@ -210,7 +211,7 @@ def try_out(
                 turns.doubt(site, None if is_probe(edit, site) else edit.begin)
             if result.verdict is Verdict.FAIL and is_farther(result, failed[0]):
                 turns.encourage(site)
-            if edit.kind in NUMERIC and is_worse(result, failed[0]):
+            if edit.kind in NUMBERS and is_worse(result, failed[0]):
                 turns.turn_round(site, edit)
             turns.tire(site)
             if result.verdict is Verdict.FAIL and course_of(result) != course:

@@ -14,7 +14,7 @@ from checker.counterfactual.candidates import Candidate
 from checker.counterfactual.numbers import is_raised
 from checker.counterfactual.word_odds import is_comparison_turned
 from checker.mutation.edits import EditSite, SmallEdit, inverse_of
-from checker.mutation.kinds import NUMERIC, EditKind
+from checker.mutation.kinds import NUMBERS, EditKind
 
 _BESIDE = 0.5  # how much of the wait is left for an edit of a line beside one that has helped
 _IDLE = 0.8  # how much later the edits of a line are tried that has no part in the failure
@@ -65,7 +65,7 @@ class Turns:
         """Try a number the other way sooner of which a change one way has made it worse, and further that way later."""
 
         def is_same(candidate: Candidate, edit: SmallEdit) -> bool:
-            return candidate.site is site and edit.begin == worse.begin and edit.kind in NUMERIC
+            return candidate.site is site and edit.begin == worse.begin and edit.kind in NUMBERS
 
         self._move(self._sooner, lambda one, edit: is_same(one, edit) and is_raised(edit) != is_raised(worse))
         self._delay(_IDLE, lambda one, edit: is_same(one, edit) and is_raised(edit) == is_raised(worse))
@@ -117,7 +117,7 @@ class Turns:
 
 
 def _is_doubtful(edit: SmallEdit, place: int | None) -> bool:
-    if place is not None and edit.kind in _COMPUTING:  # a quotient is small where a product is large
-        return False
+    if place is not None and (edit.kind in _COMPUTING or edit.kind is EditKind.SETTING):
+        return False  # a quotient is small where a product is large; and which way Python is better off is not known
     is_turned = is_comparison_turned(edit) or (edit.kind is EditKind.RELATION and edit.new == inverse_of(edit.old))
     return place in (None, edit.begin) and not is_turned

@@ -34,6 +34,7 @@ class EditKind(StrEnum):
 
 OUTSIDE = (EditKind.MISSION, EditKind.SETTING, EditKind.GOAL, EditKind.PROMISE)  # of any model
 NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
+NUMBERS = (*NUMERIC, EditKind.SETTING)  # in models and outside
 DROPPED = (EditKind.DROPPED_CONSTRAINT, EditKind.DROPPED_BRANCH)
 REPAIRS = (
     EditKind.TERM,

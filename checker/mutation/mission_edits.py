@@ -43,7 +43,8 @@ def mission_sites(mission: Mission) -> dict[tuple[str, int], list[EditSite]]:
             found["goal", number] = list(_times(mission, number))
             found["asked", number] = list(_asked(mission, number))
         for number, kept in enumerate(mission.agent.properties):
-            sites = list(_sites(text, ("property", number), {"by": final if kept.by is not None else None}))
+            moments = {"by": final if kept.by is not None else None, "from": 0 if kept.since > 0 else None}
+            sites = list(_sites(text, ("property", number), moments))
             found["property", number] = [*sites, *_longer(text, number, kept, final), *_promised(text, number, kept)]
     return found
 

@@ -244,3 +244,21 @@ def test_a_goal_weighs_that_would_be_achieved_without_the_change(
         for fate in passed
     ]
     assert Missions([failed], others, goals=goals).damage_of(mended, failed) == damage
+
+
+def test_what_a_reactor_in_python_is_given_is_tried_both_ways_at_once(tmp_path: Path) -> None:
+    """Which way it is better off is not known, and a failure that stays as it was tells nothing of the other way."""
+    line = sites(tmp_path)["SPAN = 60;"]
+    edits = tuple(
+        SmallEdit(EditKind.SETTING, line.file, line.begin, line.begin + 2, "60", new, line.first)
+        for new in ("120", "600", "30", "6")
+    )
+    flown: list[str] = []
+
+    def fly(edit: SmallEdit, mission: MissionResult, _: float) -> MissionResult:
+        flown.append(edit.new)
+        return result(mission.number, Verdict.FAIL)
+
+    found = sites(tmp_path) | {line.text: replace(line, edits=edits)}
+    tried(found, [line.text, "duration <= SPAN;"], fly)
+    assert flown[:2] == ["600", "6"]
