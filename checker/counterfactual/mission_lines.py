@@ -2,9 +2,10 @@
 
 What a goal asks that the conflict speaks of is tried in any case, and so is when goals may come of a reactor whose
 request set the time that the conflict speaks of. So are the times of goals whose rules fill a resource that the
-conflict finds too empty, of goals that began as late as they had to and were not over when the mission was, and of those
-that lead to what a violated property promises by some time. Of what else goals ask for, those are tried that lead to what
-changed a violated level, or to a broken plan, and the earliest goal that was not achieved; of a property its ticks.
+conflict finds too empty, of goals that began as late as they had to and were not over when the mission was, and of
+those that lead to what a violated property promises by some time. Of what else goals ask for, those are tried that lead
+to what changed a violated level, or to a broken plan, and the earliest goal that was not achieved; of a property its
+ticks.
 """
 
 import math

@@ -1,7 +1,7 @@
 """A relation of a rule in, lines out that may be missing behind it: what a parameter of its token is, when it ends.
 
-A parameter that no line of the rule speaks of has any value that its planner likes, and a rule that says nothing of its
-own end may go on for ever.
+A parameter that no line of the rule speaks of has any value that its planner likes, a rule that says nothing of its own
+end may go on for ever, and a token that is asked for with `any` and never mentioned again may come whenever it likes.
 """
 
 import re
@@ -24,6 +24,8 @@ _ADDED = re.compile(r" \w+\.(\w+) == (?:\w+\.)*(\w+);")
 _ORDERED = re.compile(r"\b(\w+)\s+(?:before|after|meets|met_by)\s+(\w+)\s*;")
 _LATER = re.compile(r"\b(\w+)\s*\.\s*start\s*>=?\s*(\w+)\s*\.\s*end\b|\b(\w+)\s*\.\s*end\s*<=?\s*(\w+)\s*\.\s*start\b")
 _CHILD = re.compile(r"\bcontains\s*\(\s*[\w.]+\s+(\w+)\s*\)")
+_TOKEN = re.compile(r"\(\s*(\w+)\.\w+\s+(\w+)\s*\)")
+_ANYHOW = "any"  # the relation that demands nothing
 _FEWEST = 3  # children that say how a rule orders them
 _TRUTHS = ("true", "false")
 # By these a rule looks at what is there already: that need not be told what it is.
@@ -43,6 +45,19 @@ def missing_lines(statement: Any, rule: Span, names: LineScope, made: dict[str, 
         if not shape.is_event and not _is_ended(rule.text):
             yield behind, f" {label}.end == end;"
         yield from ((behind, f" {before} before {label};") for before, after in _gaps(rule.text) if after == label)
+        if statement.relation.name == _ANYHOW:
+            yield from ((behind, f" {one} meets {other};") for one, other in _unrelated(label, rule.text))
+
+
+def _unrelated(label: str, rule: str) -> Iterator[tuple[str, str]]:
+    """A token that a rule asks for anyhow and never mentions again, with each other one of its timeline, either way."""
+    code = _COMMENT.sub("", rule)
+    tokens = {name: owner for owner, name in _TOKEN.findall(code)}
+    if len(re.findall(rf"\b{label}\b", code)) == 1 and label in tokens:
+        for other, owner in tokens.items():
+            if other != label and owner == tokens[label]:
+                yield other, label
+                yield label, other
 
 
 def _gaps(rule: str) -> list[tuple[str, str]]:

@@ -111,6 +111,13 @@ def test_an_end_is_tried_where_the_rule_says_nothing_of_its_own(tmp_path: Path) 
     assert list(added(tmp_path, CHIEF.replace("  bore.end == end;\n", ""))) == ["bore.end == end;"]
 
 
+def test_a_token_that_is_asked_for_anyhow_and_never_mentioned_is_one_that_another_meets(tmp_path: Path) -> None:
+    with_end = CHIEF.replace("  bore.end == end;\n", "  bore.end == end;\n  any(Drill.Stowed off);\n")
+    assert list(added(tmp_path, with_end)) == ["bore meets off;", "off meets bore;"]
+    assert added(tmp_path, with_end.replace("off);", "off);\n  bore before off;")) == {}
+    assert added(tmp_path, with_end.replace("any(Drill.Stowed", "any(Site.Nothing")) == {}
+
+
 def faults(folder: Path, capsys: pytest.CaptureFixture[str], gone: str) -> list[dict[str, Any]]:
     files = {"shared.nddl": SHARED, "chief.nddl": CHIEF.replace(gone, ""), "world.nddl": WORLD}
     return faults_of(folder, capsys, files | {"mission.toml": MISSION})
