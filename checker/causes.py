@@ -51,14 +51,14 @@ def failed_by(outcome: Outcome | None) -> Failed:
     ends: list[Event | Abort | OpenGoal] = (
         [*refusals(outcome), abort] if abort is not None else list(outcome.open_goals)
     )
-    return next((_failed(end) for end in ends if _is_explained(end)), Failed())
+    return next((failed_at(end) for end in ends if _is_explained(end)), Failed())
 
 
 def goals_ruled_out(outcome: Outcome) -> list[tuple[tuple[OpenGoal, ...], Failed]]:
     """What is known of each goal that stayed open for a known reason; goals that the same lines rule out together."""
     found: dict[object, tuple[list[OpenGoal], Failed]] = {}  # by the lines, or what had no choice
     for goal in filter(_is_explained, outcome.open_goals):
-        failed = _failed(goal)
+        failed = failed_at(goal)
         lines = tuple(one.place for one in lines_that_rule_out(failed))
         ends = tuple(way[-1].flaw for way in dead_ends(failed.deadlock)) if not lines else ()
         found.setdefault((lines, ends), ([], failed))[0].append(goal)
@@ -69,7 +69,7 @@ def _is_explained(end: "Event | Abort | OpenGoal") -> bool:
     return end.conflict is not None or end.deadlock is not None
 
 
-def _failed(end: "Event | Abort | OpenGoal") -> Failed:
+def failed_at(end: "Event | Abort | OpenGoal") -> Failed:
     """What is known of an end; where only a search failed, the conflict that speaks for what it tried."""
     conflict = end.conflict
     if conflict is None and end.deadlock is not None:

@@ -4,7 +4,7 @@ A static slice: from the sampled variable through the constraints of the same ru
 It says how a draw acts inside the simulator when the conflict was found in another reactor, whose terms know no draw.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from checker.single_values import single_value
@@ -14,6 +14,7 @@ from compiler.program import (
     END,
     FIRST_PARAMETER,
     START,
+    Child,
     Constant,
     Instruction,
     LocalVariable,
@@ -87,6 +88,25 @@ def lines_of_influence(program: Program, parameter: str) -> tuple[InfluenceLine,
     return tuple(dict.fromkeys(lines))
 
 
+def parameters_that_choose(program: Program, predicates: Container[str]) -> Iterator[str]:
+    """The parameters that decide whether a rule asks for a token of some predicates."""
+    for rule in program.rules:
+        placed = list(branched_instructions(rule.body))
+        body = [step for step, _ in placed]
+        guards = [
+            guard
+            for step, within in placed
+            if isinstance(step, Child) and step.predicate in predicates
+            for guard, _ in within
+        ]
+        deciding = {one for guard in guards for one in (guard.condition, *guard.decided_by)}
+        for sample in body if deciding else ():
+            if isinstance(sample, Sample):
+                reached = {sample.target, *(one for post in _reached(body, sample) for one in post.operands)}
+                if deciding & reached:
+                    yield sample.parameter
+
+
 def _tests_of(program: Program, rule: RuleCode, conditions: Iterable[Operand]) -> dict[Operand, ArgumentCondition]:
     """What conditions of a rule say of the arguments of its own token, by the variables that hold their truth.
 
@@ -125,7 +145,8 @@ def line_of(span: Span) -> SourcePlace:
     return SourcePlace(source.name, span.line, span.column, source.line(span.line).partition("//")[0].strip())
 
 
-def _slice(body: list[Instruction], sample: Sample) -> list[Post]:
+def _reached(body: list[Instruction], sample: Sample) -> list[Post]:
+    """The constraints that a draw comes to by local variables."""
     reached = {sample.target}
     posts: list[Post] = []
     grows = True
@@ -136,6 +157,11 @@ def _slice(body: list[Instruction], sample: Sample) -> list[Post]:
                 posts.append(instruction)
                 reached.update(one for one in instruction.operands if isinstance(one, LocalVariable))
                 grows = True
+    return posts
+
+
+def _slice(body: list[Instruction], sample: Sample) -> list[Post]:
+    posts = _reached(body, sample)
     ends = [post for post in posts if any(_is_time(operand) for operand in post.operands)]
     if ends:
         last = posts.index(ends[-1])

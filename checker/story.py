@@ -11,12 +11,13 @@ from checker.causes import (
     decided_at,
     draws_behind,
     events_to_abort,
+    failed_at,
     lines_that_rule_out,
     missed_after,
 )
 from checker.culprit import culprit_of, in_telling_order
 from checker.findings import Fault
-from checker.influence import Branch, Influence
+from checker.influence import Branch, Influence, parameters_that_choose
 from checker.oracle import Judgement, given_up
 from checker.proofs.conflict import Confirmation, confirm, needed_elements
 from checker.proofs.places import ModelText
@@ -25,7 +26,7 @@ from checker.standing import Standing, StandingLines
 from checker.steps import Step, StepKind, without_repeats
 from checker.told_draws import acting_lines, draws_of, in_time, shown_tokens
 from checker.told_events import failed_owner, lost_events, promised_events, sent_requests
-from checker.waiting import waited_for
+from checker.waiting import kept_open_by, waited_for
 from runtime.executive.configuration import AgentConfiguration, CodeConfiguration
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import (
@@ -94,7 +95,8 @@ def tell(
     levels = _levels(result, text)
     changes = [[Step(StepKind.LEVEL, one.tick, one, next(iter(places), None))] for one, places in levels]
     drawn = _drawn_at(influence, (place for _, places in levels for place in places))
-    parameters = tuple(dict.fromkeys((*suspects(outcome, fault, first), *decisive, *drawn)))
+    known = suspects(outcome, fault, first) or _choosing(outcome, conflict, text)
+    parameters = tuple(dict.fromkeys((*known, *decisive, *drawn)))
     until = _decided_at(result, outcome)
     acting = acting_lines(influence, outcome, until, taken, conflicts)
     draws = draws_of(outcome, agent, acting, parameters, until, conflicts)
@@ -119,6 +121,7 @@ def tell(
         *in_time([*redrawn, *draws], in_time(changes, _events(way, broken, outcome, text, taken), is_behind=True)),
         *_with_askers(_conflict(conflict, confirmation), outcome, text, taken),
         *_tried(failed),
+        *_kept_open(outcome, agent),
         *(Step(StepKind.WAITING, None, one) for one in waited_for(outcome, agent)),
         Step(StepKind.ABORT, ended, abort, abort.reason.raised if abort is not None else None),
     ]
@@ -163,6 +166,17 @@ def suspects(outcome: Outcome, fault: Fault | None, broken: Event | None) -> tup
         return fault.condition.parameters
     spoken = broken.conflict.parameters if broken is not None and broken.conflict is not None else ()
     return tuple(dict.fromkeys((*spoken, *draws_behind(outcome))))
+
+
+def _choosing(outcome: Outcome, conflict: Conflict | None, text: ModelText | None) -> tuple[str, ...]:
+    """The parameters that decide whether what was observed, and ended the mission, comes at all."""
+    abort = given_up(outcome)
+    seen = {abort.reason.predicate} if abort is not None else set[str]()
+    for element in conflict.elements if conflict is not None else ():
+        if element.kind is ElementKind.OBSERVATION:
+            seen |= {one.token.predicate for one in element.variables if one.token is not None}
+    programs = text.programs.values() if text is not None else ()
+    return tuple(dict.fromkeys(name for program in programs for name in parameters_that_choose(program, seen)))
 
 
 def _decided_at(result: MissionResult, outcome: Outcome) -> int:
@@ -279,6 +293,13 @@ def _with_conditions(steps: list[Step], text: ModelText | None) -> Iterator[Step
             yield replace(step, under=under, made=lines.made(step.subject))
         else:
             yield step
+
+
+def _kept_open(outcome: Outcome, agent: AgentConfiguration) -> Iterator[Step]:
+    """What a goal that stays open for no other reason asked for in vain, with what rules that out."""
+    for event in kept_open_by(outcome, agent):
+        yield from _tried(failed_at(event))
+        yield Step(StepKind.EVENT, event.tick, event)
 
 
 def _is_only_resource(element: ConflictElement, conflict: Conflict) -> bool:

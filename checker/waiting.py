@@ -9,9 +9,11 @@ from dataclasses import dataclass
 from checker.oracle import given_up
 from runtime.executive.configuration import AgentConfiguration, CodeConfiguration, ReactorConfiguration
 from runtime.executive.events import heads_of, single_events
-from runtime.executive.outcome import EventKind, Outcome
+from runtime.executive.outcome import Event, EventKind, Outcome
 
 _MOST = 8  # steps that are told
+_MOST_ANSWERS = 2
+_ANSWERS = (EventKind.REFUSE, EventKind.REJECT)
 _OVER = (EventKind.ACHIEVED, EventKind.RECALL, EventKind.REFUSE, EventKind.REJECT)
 
 
@@ -59,3 +61,17 @@ def waited_for(outcome: Outcome, agent: AgentConfiguration) -> tuple[Waiting, ..
         found[one.request] = Waiting(one.reactor, one.tick, one.timeline, one.predicate, since, owner.name, holding)
         waiting[:0] = behind
     return tuple(found.values())
+
+
+def kept_open_by(outcome: Outcome, agent: AgentConfiguration) -> list[Event]:
+    """The refusals and rejections of what the owners of open goals asked for, and have not asked for again."""
+    owners = {one.owner for one in waited_for(outcome, agent)}
+    senders: dict[int | None, str] = {}
+    last: dict[tuple[str, str, str], Event] = {}
+    for event in single_events(outcome.events):
+        if event.kind is EventKind.REQUEST:
+            senders[event.request] = event.reactor
+        if event.kind in (EventKind.REQUEST, *_ANSWERS):
+            last[senders.get(event.request, ""), event.timeline, event.predicate] = event
+    answers = [event for (sender, *_), event in last.items() if sender in owners and event.kind in _ANSWERS]
+    return sorted(answers, key=lambda one: one.tick)[:_MOST_ANSWERS]

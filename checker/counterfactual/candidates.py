@@ -125,6 +125,11 @@ def candidates_of(
             far = least + _STEP * steps
             if number not in roots or roots[number][0] > far:
                 roots[number] = (far, Suspicion.CONFLICT)
+    for token in sorted({token for token, _ in observed}):  # that it came at all, its owner decided
+        for number, steps in graph.choosing(token):
+            far = _OBSERVED + _STEP * steps
+            if number not in roots or roots[number][0] > far:
+                roots[number] = (far, Suspicion.CONFLICT)
     for predicate, name in sorted(read_in_python(outcome, observed, coded)):
         for number in graph.of_predicate(predicate, name):
             if number not in roots or roots[number][0] > _READ:

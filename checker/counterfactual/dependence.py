@@ -127,13 +127,26 @@ class Dependence:
 
     def behind(self, predicate: str, variable: str) -> Iterator[tuple[int, int]]:
         """The sites of `setting`, and those behind them by local variables of the rule, each with how many steps."""
-        found = dict.fromkeys(self.setting(predicate, variable), 0)
+        yield from self._by_locals(self.setting(predicate, variable), predicate)
+
+    def choosing(self, predicate: str) -> Iterator[tuple[int, int]]:
+        """The conditions under which other rules ask for a predicate, and what is behind them, as `behind` has it."""
+        asking = [one for one in self._users.get(("token", predicate, TIMES), ()) if self.sites[one].rule != predicate]
+        rules: dict[str, set[int]] = defaultdict(set)
+        for condition in (one for site in asking for one in self.conditions(site)):
+            rules[self.sites[condition].rule].add(condition)
+        for rule, conditions in sorted(rules.items()):
+            yield from self._by_locals(sorted(conditions), rule)
+
+    def _by_locals(self, sites: Iterable[int], rule: str) -> Iterator[tuple[int, int]]:
+        """Some sites of a rule, and those behind them by its local variables, each with how many steps."""
+        found = dict.fromkeys(sites, 0)
         waiting = list(found)
         while waiting:
             site = waiting.pop(0)
             shared = {key for key in self._keys[site] if key[0] == "rule" and "local" in key}
             for other in sorted({one for key in shared for one in self._users[key]} - found.keys()):
-                if self.sites[other].rule == predicate:
+                if self.sites[other].rule == rule:
                     found[other] = found[site] + 1
                     waiting.append(other)
         yield from found.items()

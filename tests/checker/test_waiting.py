@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 
 from checker.batch.worker import Task, fly_one
+from checker.buckets import group_failures
+from checker.findings import Fault
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.variant import load_over, open_over
@@ -12,8 +14,13 @@ from checker.rendering import waiting_text
 from checker.sampling.seeds import mission_seed
 from checker.waiting import waited_for
 from nddl_lang.text.read import real_path
+from runtime.executive.outcome import Event, EventKind
+from tests.checker.fault_study import faults_in, laid_out
+from tests.checker.told_steps import failed_mission
 
 MODEL = Path(__file__).resolve().parent / "unseen/papermill"
+DAM = MODEL.parent / "dam"
+REJECTED = 6  # the fault: three times as many minutes as were asked for
 
 pytestmark = pytest.mark.once
 
@@ -32,3 +39,18 @@ def test_what_goes_on_is_told_through_all_planners_with_what_the_last_one_uses()
         "Batch on `line`, asked for by office at tick 687, goes on since tick 688; of what foreman uses, "
         "`pulper` holds Empty since tick 727, `dryer` holds Cold since tick 797, `winder` holds Still since tick 835",
     ]
+
+
+def test_what_was_asked_for_in_vain_is_told_with_what_rules_it_out(tmp_path: Path) -> None:
+    """The warden rejects at tick 0 what the dispatcher needs for a goal, which begins all the same and has no end."""
+    place = laid_out(DAM, list(faults_in(DAM))[REJECTED], tmp_path / "dam")
+    given, failed = failed_mission(place, 1)
+    (bucket,) = group_failures((failed,))
+    steps = given.story(failed, Fault(bucket, None, None)).steps
+    events = [step.subject for step in steps if isinstance(step.subject, Event)]
+    assert [(one.tick, one.kind, one.reactor, one.predicate) for one in events] == [
+        (0, EventKind.REJECT, "warden", "Release")
+    ]
+    lines = [step.place.text for step in steps if step.place is not None]
+    assert {"minutes * 3", "duration <= RELEASE_MAX"} <= set(lines)
+    assert [str(step.kind) for step in steps[-3:]] == ["event", "waiting", "abort"]
