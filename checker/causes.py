@@ -5,13 +5,13 @@ at the conflict. "Future work" of the founding paper, section 6.
 """
 
 from collections import Counter, deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 
 from checker.culprit import culprit_of, own_elements
 from checker.oracle import given_up
 from compiler.program import TOKEN_TIMES
-from runtime.executive.events import causes_of, numbered
+from runtime.executive.events import causes_of, heads_of, numbered
 from runtime.executive.outcome import (
     Abort,
     Conflict,
@@ -22,6 +22,8 @@ from runtime.executive.outcome import (
     EventKind,
     OpenGoal,
     Outcome,
+    Reason,
+    ReasonKind,
 )
 
 _ANSWERS = (EventKind.REFUSE, EventKind.REJECT)
@@ -194,7 +196,8 @@ def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int,
 
     Without an abort, those to what became of the first goal that stayed open for a known reason, with that event.
     From the draw of the first of `parameters` that is connected with the abort; else from whatever draw is; else the
-    latest cause of each event, backwards. Of a long way, its root and its end.
+    latest cause of each event, backwards from the beginning of what goes on, if that is why, else from the abort. Of a
+    long way, its root and its end.
     """
     target = decided_at(outcome)
     if target < 0 or not outcome.events:
@@ -211,12 +214,31 @@ def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int,
             way.append(current)
             current = following[current]
     else:
+        abort = given_up(outcome)
+        if abort is not None and (begun := beginning_of(abort.reason, abort.timelines, outcome)) is not None:
+            current = begun
+            way.append(begun)
         while causes := outcome.events[current].causes:
             current = max(causes)
             way.insert(0, current)
     if given_up(outcome) is None:
         way.append(target)
     return tuple(way if len(way) <= _MOST_EVENTS else [way[0], *way[1 - _MOST_EVENTS :]])
+
+
+def beginning_of(reason: Reason, timelines: Container[str], outcome: Outcome) -> int | None:
+    """The index of the observation by which that began which goes on longer than planned; None where nothing does."""
+    if reason.kind is not ReasonKind.GOES_ON or reason.token is None:
+        return None
+    wanted = reason.token.predicate.rpartition(".")[2]
+    return next(
+        (
+            index
+            for index, tick, timeline, predicate in heads_of(outcome.events)
+            if (tick, predicate) == (reason.since, wanted) and timeline in timelines
+        ),
+        None,
+    )
 
 
 def decided_at(outcome: Outcome) -> int:

@@ -76,8 +76,9 @@ def _story_text(story: Story, run_id: str, excerpts: Excerpts, most: int) -> str
 def _cause_lines(story: Story, causes: Causes, excerpts: Excerpts, most: int) -> list[str]:
     """The lines to look at, each with what its trial showed."""
     effort = effort_text(causes, "the same mission" if causes.flown in (0, story.number) else "one that fails alike")
+    coded = [f"      {_python_text(one)}" for one in story.coded]
     if not causes.ranked:
-        return [nothing_text(effort)]
+        return [nothing_text(effort), *coded]
     if has_no_flown(causes):
         is_seen = causes.ranked[0].claim in (Claim.RAISED, Claim.ASLEEP)
         what = "the line that failed" if is_seen else "guesses, the likeliest first"
@@ -89,8 +90,7 @@ def _cause_lines(story: Story, causes: Causes, excerpts: Excerpts, most: int) ->
         lines += excerpt_lines(cause.place, excerpts, marked=place == 1)
     if len(causes.ranked) > most:
         lines.append(f"      and {len(causes.ranked) - most} more (-v)")
-    lines += [f"      {_python_text(one)}" for one in story.coded]
-    return lines
+    return [*lines, *coded]
 
 
 def _python_text(coded: CodeConfiguration) -> str:

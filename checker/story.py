@@ -7,6 +7,7 @@ from checker.batch.result import MissionResult
 from checker.broken_plans import Breaking, blamed, broken_plan, fails_by_repairs
 from checker.causes import (
     Failed,
+    beginning_of,
     dead_ends,
     decided_at,
     draws_behind,
@@ -108,6 +109,7 @@ def tell(
         *(sent_requests(outcome, broken.conflict, broken.tick) if broken is not None else ()),
         *(index for index in events_to_abort(outcome, parameters) if index >= min(shown, default=0)),
     }
+    indices |= {one for one in _begun(outcome, broken) if one is not None}
     way = [outcome.events[index] for index in sorted(indices)]
     if draws:
         way = [event for event in way if event.kind is not EventKind.SAMPLE]
@@ -177,6 +179,16 @@ def _choosing(outcome: Outcome, conflict: Conflict | None, text: ModelText | Non
             seen |= {one.token.predicate for one in element.variables if one.token is not None}
     programs = text.programs.values() if text is not None else ()
     return tuple(dict.fromkeys(name for program in programs for name in parameters_that_choose(program, seen)))
+
+
+def _begun(outcome: Outcome, broken: Event | None) -> Iterator[int | None]:
+    """Where that began which goes on, at the abort and where a plan broke before."""
+    abort = given_up(outcome)
+    if abort is not None:
+        yield beginning_of(abort.reason, abort.timelines, outcome)
+    if broken is not None and broken.reason is not None and broken.conflict is not None:
+        seen = {one.observed[1] for one in broken.conflict.elements if one.observed is not None}
+        yield beginning_of(broken.reason, seen, outcome)
 
 
 def _decided_at(result: MissionResult, outcome: Outcome) -> int:

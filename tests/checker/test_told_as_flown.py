@@ -71,3 +71,13 @@ def test_rules_by_which_a_draw_acts_too_are_left_out_where_the_conflict_speaks_o
     assert published(steps, {"truck", "two"}) == [(277, "truck")]
     places = [one.place.line for one in steps if one.kind in (StepKind.DRAW, StepKind.LINE) and one.place]
     assert places == [50, 51]  # of Truck.Charge, and not of Drone.Docked
+
+
+def test_what_goes_on_is_told_from_its_beginning_and_not_what_python_published_last(tmp_path: Path) -> None:
+    """The cart brings since tick 20 what the plan wanted long before 220, when an analyser of the same reactor ran."""
+    steps = steps_of("wetlab", 6, tmp_path, 2)
+    told = [one.subject for one in steps if isinstance(one.subject, Event)]
+    assert [(one.tick, one.timeline, one.predicate) for one in told][-2:] == [
+        (19, "cart", "Bring"),  # asked for
+        (20, "cart", "Bring"),
+    ]

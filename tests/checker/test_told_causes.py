@@ -5,7 +5,17 @@ from pathlib import Path
 
 import pytest
 
+from checker.batch.result import MissionResult
+from checker.buckets import group_failures
+from checker.counterfactual.ranking import Causes
+from checker.excerpts import Excerpts
+from checker.explain import page_text
+from checker.findings import Fault
+from checker.oracle import Judgement, Verdict
+from checker.story import Story
 from nddlc.main import run
+from runtime.executive.configuration import CodeConfiguration
+from runtime.executive.outcome import Outcome, PropertyFate
 from tests.checker.test_causes import GOAL, MISSION, MODEL
 
 Page = pytest.CaptureFixture[str]
@@ -184,3 +194,13 @@ def test_where_python_published_what_failed_it_is_said_that_none_of_it_was_chang
     checked(tmp_path, capsys, GAUGED, gauged(MISSION) + GOAL.format(5), "--trust")
     page = explained(capsys, "--trust")
     assert "what happened goes through `gauge`, which is Python (gauge.py): none of its lines was changed" in page
+
+
+def test_where_nothing_helps_it_is_said_all_the_same_that_no_python_was_changed() -> None:
+    judgement = Judgement(Verdict.FAIL, "P1", broken=PropertyFate("soon", is_kept=False, tick=9, margin=-1.0))
+    (bucket,) = group_failures((MissionResult(1, 1, judgement, Outcome(1, 9, 9, None, (), (), ()), True),))
+    fault = Fault(bucket, None, None, Causes((), 3, 40))
+    coded = (CodeConfiguration("gauge", "gauge.py", "Gauge"),)
+    page = page_text(Story(1, 1, judgement, (), 9, 9, (), fault, coded=coded), None, "run", Excerpts(Path()))
+    assert "none of the changes tried makes it pass" in page
+    assert "which is Python (gauge.py): none of its lines was changed" in page
