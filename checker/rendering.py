@@ -244,6 +244,9 @@ def event_line(event: Event) -> str:
         case EventKind.REQUEST:
             end = event.bounds.end[1] if event.bounds is not None else HALF_INF
             until = f", to end by tick {end}" if end < HALF_INF else ""
+            if not event.reactor and event.bounds is not None and event.bounds.start[1] < HALF_INF:
+                earliest, latest = event.bounds.start
+                until = f", to begin between ticks {max(earliest, 0)} and {latest}{until}"
             return f"{who} requests {token_text(event.predicate, event.arguments)}{about}{until}"
         case EventKind.SAMPLE:
             return f"{who} draws {event_text(event)}"

@@ -16,6 +16,8 @@ from checker.causes import (
     lines_that_rule_out,
     missed_after,
 )
+from checker.counterfactual.goals_behind import asking_for, promised_goals
+from checker.counterfactual.promises import first_violated, of_first_violated
 from checker.culprit import culprit_of, in_telling_order
 from checker.findings import Fault
 from checker.influence import Branch, Influence, parameters_that_choose
@@ -28,7 +30,7 @@ from checker.steps import Step, StepKind, without_repeats
 from checker.told_draws import acting_lines, draws_of, in_time, shown_tokens
 from checker.told_events import failed_owner, lost_events, promised_events, sent_requests
 from checker.waiting import kept_open_by, waited_for
-from runtime.executive.configuration import AgentConfiguration, CodeConfiguration
+from runtime.executive.configuration import AgentConfiguration, CodeConfiguration, PropertyKind
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import (
     Abort,
@@ -46,6 +48,8 @@ from runtime.executive.outcome import (
 
 _MOST_LINES = 8  # that rule out what was tried
 _MOST_CHANGES = 6  # of a level
+_MOST_GOALS = 2  # that lead to what a property promises
+_MOST_LEADING = 3  # requests that do
 _MOST_ENDS = 3  # flaws against which there was nothing to choose
 
 
@@ -119,8 +123,10 @@ def tell(
         way = lost_events(outcome, result.judgement.exceeded.limit)
     dead = failed_owner(result.judgement, outcome)
     way = sorted([*way, *dead, *promised_events(result, outcome, agent)], key=lambda event: event.tick)
+    wished = [[one] for one in _wished(outcome, agent, text)]
+    told = in_time(changes, _events(way, broken, outcome, text, taken), is_behind=True)
     steps = [
-        *in_time([*redrawn, *draws], in_time(changes, _events(way, broken, outcome, text, taken), is_behind=True)),
+        *in_time([*redrawn, *draws, *wished], told),
         *_with_askers(_conflict(conflict, confirmation), outcome, text, taken),
         *_tried(failed),
         *_kept_open(outcome, agent),
@@ -305,6 +311,28 @@ def _with_conditions(steps: list[Step], text: ModelText | None) -> Iterator[Step
             yield replace(step, under=under, made=lines.made(step.subject))
         else:
             yield step
+
+
+def _wished(outcome: Outcome, agent: AgentConfiguration, text: ModelText | None) -> Iterator[Step]:
+    """The goals that lead to what a violated property promises by some time, each with the line that says when.
+
+    Of what it promises within a time what led there was asked for since, and the same on other timelines.
+    """
+    programs = [text.programs[one.name] for one in agent.reactors] if text is not None else []
+    goals = promised_goals(outcome, agent, programs) if programs else frozenset[int]()
+    requests = [one for one in single_events(outcome.events) if one.kind is EventKind.REQUEST]
+    for event in requests if len(goals) <= _MOST_GOALS else ():
+        number = -1 if event.request is None else -event.request - 1
+        if not event.reactor and number in goals:
+            yield Step(StepKind.EVENT, event.tick, event, dict(agent.goals[number].places).get("start"))
+    for kept in of_first_violated(outcome, agent.properties) if programs else ():
+        broken = first_violated(outcome)
+        if kept.kind is PropertyKind.WITHIN and kept.then is not None and broken is not None:
+            due, wanted = range(broken.tick or 0, (broken.tick or 0) + kept.ticks + 1), kept.then
+            leading = asking_for(wanted, agent, programs) | {wanted.predicate}
+            found = [one for one in requests if one.reactor and one.tick in due and one.predicate in leading]
+            found = [one for one in found if one.timeline != wanted.timeline]  # those are told with their answers
+            yield from (Step(StepKind.EVENT, one.tick, one) for one in found[:_MOST_LEADING])
 
 
 def _kept_open(outcome: Outcome, agent: AgentConfiguration) -> Iterator[Step]:

@@ -1,6 +1,6 @@
 """A violated property in, the goals out that lead to what it is about, by the rules of reactors, or to a broken plan.
 
-A promise in time (`reached`, `within`, `until`) that was missed rests on when the goals might come that ask for it; a
+A promise in time (`reached`, `until`) that was missed rests on when the goals might come that ask for it; a
 level on how much the goals ask for whose rules changed it.
 """
 
@@ -18,7 +18,8 @@ from runtime.executive.configuration import AgentConfiguration, GoalConfiguratio
 from runtime.executive.events import heads_of
 from runtime.executive.outcome import Outcome
 
-_IN_TIME = (PropertyKind.REACHED, PropertyKind.WITHIN, PropertyKind.UNTIL)
+_OWN = "own"  # what a rule asks for on the object of its token
+_IN_TIME = (PropertyKind.REACHED, PropertyKind.UNTIL)
 
 
 def promised_goals(outcome: Outcome, agent: AgentConfiguration, programs: Sequence[Program]) -> frozenset[int]:
@@ -27,12 +28,16 @@ def promised_goals(outcome: Outcome, agent: AgentConfiguration, programs: Sequen
     for kept in of_first_violated(outcome, agent.properties):
         if kept.kind in _IN_TIME:
             pattern = kept.then or kept.pattern
-            users = [
-                number for number, one in enumerate(agent.reactors) if pattern.timeline in one.internal + one.external
-            ]
-            asking = _asking(pattern.predicate, programs, users)
+            asking = asking_for(pattern, agent, programs)
             found |= {number for number, goal in enumerate(agent.goals) if _asks_for(goal, pattern, asking)}
     return frozenset(found)
+
+
+def asking_for(pattern: TokenPattern, agent: AgentConfiguration, programs: Sequence[Program]) -> set[str]:
+    """The predicates, without their classes, whose rules lead to what matches on its timeline."""
+    reactors = enumerate(agent.reactors)
+    users = [number for number, one in reactors if pattern.timeline in (*one.internal, *one.external)]
+    return _asking(pattern.predicate, agent, programs, users)
 
 
 def levelled_goals(outcome: Outcome, agent: AgentConfiguration, programs: Sequence[Program]) -> dict[int, float]:
@@ -45,7 +50,7 @@ def levelled_goals(outcome: Outcome, agent: AgentConfiguration, programs: Sequen
     total = sum(amounts.values())
     found: dict[int, float] = {}
     for predicate, amount in amounts.items():
-        asking = _asking(predicate, programs, range(len(programs))) | {predicate}
+        asking = _asking(predicate, agent, programs, range(len(programs))) | {predicate}
         goals = [number for number, goal in enumerate(agent.goals) if goal.predicate in asking]
         for number in goals if total > 0.0 else ():
             found[number] = max(found.get(number, 0.0), amount / total / len(goals))
@@ -59,7 +64,7 @@ def leading_goals(outcome: Outcome, agent: AgentConfiguration, programs: Sequenc
     elements = own_elements(failed_by(outcome).conflict)
     tokens = {one.token.predicate for each in elements for one in each.variables if one.token is not None}
     everywhere = range(len(programs))
-    asking = {one for each in tokens for one in _asking(each.rpartition(".")[2], programs, everywhere)}
+    asking = {one for each in tokens for one in _asking(each.rpartition(".")[2], agent, programs, everywhere)}
     return frozenset(number for number, goal in enumerate(agent.goals) if goal.predicate in asking)
 
 
@@ -79,16 +84,27 @@ def _asks_for(goal: GoalConfiguration, pattern: TokenPattern, asking: set[str]) 
     return is_itself or goal.predicate in asking
 
 
-def _asking(wanted: str, programs: Sequence[Program], users: Sequence[int]) -> set[str]:
-    """The predicates, without their classes, whose rules ask for what is wanted of its users, and so on."""
+def _asking(wanted: str, agent: AgentConfiguration, programs: Sequence[Program], users: Sequence[int]) -> set[str]:
+    """The predicates, without their classes, whose rules ask for what is wanted of its users, and so on.
+
+    What a rule asks for on its own timeline leads to users of the same; else to who uses a timeline of the reactor.
+    """
     found: set[str] = set()
-    waiting = [(number, wanted) for number in users]
+    waiting = [(tuple(users), wanted)]
     while waiting:
-        number, name = waiting.pop()
-        for rule in programs[number].rules:
+        near, name = waiting.pop()
+        for number, rule in [(each, rule) for each in near for rule in programs[each].rules]:
             own = rule.predicate.rpartition(".")[2]
-            children = (step.predicate for step in all_instructions(rule.body) if isinstance(step, Child))
-            if own not in found and name in {one.rpartition(".")[2] for one in children}:
+            steps = [step for step in all_instructions(rule.body) if isinstance(step, Child)]
+            asked = [step for step in steps if step.predicate.rpartition(".")[2] == name]
+            if asked and own not in found:
                 found.add(own)
-                waiting += [(other, own) for other in range(len(programs))]
+                is_own = all(step.object == _OWN for step in asked)
+                waiting.append((near if is_own else _beside(number, agent), own))
     return found
+
+
+def _beside(number: int, agent: AgentConfiguration) -> tuple[int, ...]:
+    """A reactor and those that use one of its timelines, by number."""
+    owned = set(agent.reactors[number].internal)
+    return tuple(at for at, one in enumerate(agent.reactors) if at == number or owned & set(one.external))

@@ -5,9 +5,12 @@ from pathlib import Path
 
 import pytest
 
+from checker.buckets import group_failures
+from checker.findings import Fault
 from checker.single_values import single_value
 from checker.told_events import promised_events
 from nddlc.main import run
+from runtime.executive.outcome import Event, EventKind
 from tests.checker.fault_study import faults_in, laid_out
 from tests.checker.told_steps import failed_mission
 
@@ -52,3 +55,37 @@ def test_requests_that_could_not_keep_the_promise_any_more_are_not_told_in_place
         (366, "request"),
     ]
     assert set(numbers) == {2}
+
+
+@pytest.mark.parametrize(
+    ("model", "fault", "told"),
+    [
+        (
+            "dam",
+            6,
+            [(0, "", "Passage", "fish"), (265, "dispatcher", "Open", "ladder")],
+        ),  # and not the goal of the sluice
+        (
+            "wetlab",
+            7,
+            [
+                (49, "ward", "Urgent", "stat"),
+                (67, "scheduler", "Run", "slow_one"),
+                (99, "scheduler", "Run", "slow_one"),
+            ],
+        ),
+    ],
+)
+def test_what_leads_to_what_is_promised_is_told(
+    model: str, fault: int, told: list[tuple[int, str, str, str]], tmp_path: Path
+) -> None:
+    unseen = Path(__file__).parent / "unseen" / model
+    place = laid_out(unseen, list(faults_in(unseen))[fault - 1], tmp_path / model)
+    given, failed = failed_mission(place, 1)
+    (bucket,) = group_failures((failed,))
+    steps = given.story(failed, Fault(bucket, None, None)).steps
+    asked = [one.subject for one in steps if isinstance(one.subject, Event)]
+    found = [(one.tick, one.reactor, one.predicate, one.timeline) for one in asked if one.kind is EventKind.REQUEST]
+    assert found == told
+    lines = [one.place.text for one in steps if one.place is not None]
+    assert lines == (["start = [265, 300]"] if model == "dam" else [])
