@@ -57,6 +57,7 @@ _ORIGINS = {
     ElementKind.REQUEST: " (as asked for)",
     ElementKind.ORDER: " (by the order of tokens)",
 }
+_TRIED_ORDER = " (by an order of tokens that was tried in vain)"
 _KINDS = {
     ReasonKind.NO_LOOKAHEAD: "its owner does not look ahead",
     ReasonKind.DECLINED: "its owner's code does not do it",
@@ -148,7 +149,9 @@ def step_text(step: Step, story: Story) -> str:
         case Event() as event:
             return event_line(event)
         case ConflictElement() as element:
-            return element_line(element) + (f", and so of {counted(step.alike, 'more token')}" if step.alike else "")
+            return element_line(element, step.is_tried) + (
+                f", and so of {counted(step.alike, 'more token')}" if step.alike else ""
+            )
         case Deadlock() as deadlock:
             tried = ", ".join(choice_text(one.choice) for one in deadlock.tried)
             return f"{deadlock_text(deadlock)}; {f'tried in vain: {tried}' if tried else 'there is nothing to choose'}"
@@ -256,8 +259,11 @@ def event_line(event: Event) -> str:
             return f"{who}: {event.kind} {event_text(event)}{about}"
 
 
-def element_line(element: ConflictElement) -> str:
-    """What an element says, whose it is, and, where no line of the model says it, what does."""
+def element_line(element: ConflictElement, is_tried: bool = False) -> str:
+    """What an element says, whose it is, and, where no line of the model says it, what does.
+
+    `is_tried`: it is an order of tokens that the planner gave up again.
+    """
     text = element_text(element)
     if element.written and not _COMPARED.search(element.written):
         text = f"`{text}`, a part of this line"
@@ -266,7 +272,7 @@ def element_line(element: ConflictElement) -> str:
     is_told = element.kind is ElementKind.REQUEST or element.token is None  # whose it is, or that it does not matter
     if not is_told and element.token is not None and not element.names(element.token):
         text = f"{element.token}: {text}"
-    return text + _ORIGINS.get(element.kind, "")
+    return text + (_TRIED_ORDER if is_tried else _ORIGINS.get(element.kind, ""))
 
 
 def _is_half(element: ConflictElement) -> bool:

@@ -39,7 +39,7 @@ class Step:
     for one, what was tried or waited for, the change of a level, or the abort (None: the mission went to its end).
     `limits` are the lines that set what the faulty one compares with, `under` the conditions under which the line of
     an element stands, `made` where the object is made that it speaks of. `alike` further elements say the same of
-    other tokens.
+    other tokens. `is_tried`: the planner had ordered tokens so, and gave that up.
     """
 
     kind: StepKind
@@ -62,6 +62,7 @@ class Step:
     under: tuple[Standing, ...] = ()
     made: SourcePlace | None = None
     alike: int = 0
+    is_tried: bool = False
 
 
 def without_repeats(steps: Iterable[Step]) -> list[Step]:

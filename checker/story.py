@@ -123,11 +123,11 @@ def tell(
         way = lost_events(outcome, result.judgement.exceeded.limit)
     dead = failed_owner(result.judgement, outcome)
     way = sorted([*way, *dead, *promised_events(result, outcome, agent)], key=lambda event: event.tick)
-    wished = [[one] for one in _wished(outcome, agent, text)]
+    wished = [[one] for one in _wished(outcome, agent, text)] if result.judgement.broken is not None else []
     told = in_time(changes, _events(way, broken, outcome, text, taken), is_behind=True)
     steps = [
         *in_time([*redrawn, *draws, *wished], told),
-        *_with_askers(_conflict(conflict, confirmation), outcome, text, taken),
+        *_with_askers(_as_tried(_conflict(conflict, confirmation), failed), outcome, text, taken),
         *_tried(failed),
         *_kept_open(outcome, agent),
         *(Step(StepKind.WAITING, None, one) for one in waited_for(outcome, agent)),
@@ -249,6 +249,14 @@ def _conflict(
     if culprit.element is not None:
         steps.append(Step(kind, None, culprit.element, culprit.place, culprit.limits))
     return steps
+
+
+def _as_tried(steps: list[Step], failed: Failed) -> list[Step]:
+    """The steps of a conflict that a search came to: an order of tokens in it is one that was tried in vain."""
+    if failed.deadlock is None or all(one is not failed.conflict for one in failed.deadlock.conflicts()):
+        return steps
+    orders = [isinstance(one.subject, ConflictElement) and one.subject.kind is ElementKind.ORDER for one in steps]
+    return [replace(step, is_tried=is_order) for step, is_order in zip(steps, orders, strict=True)]
 
 
 def _with_askers(

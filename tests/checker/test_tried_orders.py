@@ -1,0 +1,44 @@
+"""An order of tokens that a search tried in vain is told as that, not as what happened."""
+
+from pathlib import Path
+
+from checker.rendering import step_text
+from checker.steps import StepKind
+from tests.checker.told_steps import JOB_MISSION, failed_mission, steps_of
+
+SHARED = """#include "TREX.nddl"
+class Job extends AgentTimeline { predicate Free { } predicate Do { } Job(Mode m) { super(m, "Free"); } }
+class Dev extends AgentTimeline { predicate Off { } predicate Run { int n; } Dev(Mode m) { super(m, "Off"); } }
+"""
+PLANNER = """#include "shared.nddl"
+Job::Do {
+  contains(Dev.Run a);
+  contains(Dev.Run b);
+  contains(Dev.Run c);
+  a.n == 1;
+  b.n == 2;
+  c.n == 3;
+  a.duration == 10;
+  b.duration == 10;
+  c.duration == 10;
+  duration <= 25;
+}
+Job job = new Job(Internal);
+Dev dev = new Dev(External);
+close();
+"""
+SIMULATOR = """#include "shared.nddl"
+Dev::Run { duration == 10; }
+Dev dev = new Dev(Internal);
+close();
+"""
+
+
+def test_an_order_that_a_search_gave_up_again_is_no_fact(tmp_path: Path) -> None:
+    files = {"shared.nddl": SHARED, "planner.nddl": PLANNER, "simulator.nddl": SIMULATOR, "mission.toml": JOB_MISSION}
+    steps = steps_of(tmp_path, files, 1)
+    given, failed = failed_mission(tmp_path, 1)
+    story = given.story(failed, None)
+    told = [step_text(step, story) for step in steps if step.kind in (StepKind.CAUSE, StepKind.FAULT)]
+    assert "by the order of tokens" not in " ".join(told)
+    assert any(text.endswith("(by an order of tokens that was tried in vain)") for text in told)
