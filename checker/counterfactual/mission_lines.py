@@ -2,10 +2,10 @@
 
 What a goal asks that the conflict speaks of is tried in any case, and so is when goals may come of a reactor whose
 request set the time that the conflict speaks of. So are the times of goals whose rules fill a resource that the
-conflict finds too empty, of goals that began as late as they had to and were not over when the mission was, and of
-those that lead to what a violated property promises by some time. Of what else goals ask for, those are tried that lead
-to what changed a violated level, or to a broken plan, and the earliest goal that was not achieved; of a property its
-ticks.
+conflict finds too empty, of goals that began as late as they had to and were not over when the mission was, and of the
+one that leads to what a violated property promises by some time, if none leaves less time for its beginning. Of what
+else goals ask for, those are tried that lead to what changed a violated level, or to a broken plan, and the earliest
+goal that was not achieved; of a property its ticks.
 """
 
 import math
@@ -59,11 +59,12 @@ def mission_lines(
     violated = first_violated(outcome) if is_judged else None
     broken = violated.name if violated is not None else ""
     behind = _behind_requests(mission, ended, elements, outcome)
-    late = _cut_off(mission, outcome)
-    shares: dict[int, float] = {}
-    if is_judged and programs:
-        late |= promised_goals(outcome, mission.agent, programs)
+    cut_off = _cut_off(mission, outcome)
+    promised, shares = frozenset[int](), dict[int, float]()
+    if is_judged:
+        promised = promised_goals(outcome, mission.agent, programs)
         shares = levelled_goals(outcome, mission.agent, programs)
+    late = cut_off | {one for one in promised if _is_narrowest(mission.agent.goals, one)}
     leading = leading_goals(outcome, mission.agent, programs)
     behind = (behind & leading) or behind
     begun = under_way(leading, outcome, mission.agent)
@@ -81,6 +82,9 @@ def mission_lines(
             if not (is_lost or is_supply or broken or number in behind or is_without_time):
                 continue
             far = _SPOKEN + _AMONG if is_supply else _LOST if is_lost or is_without_time else _OTHERS
+            if number in promised:
+                far = _BROKEN + _AMONG
+                sites = [one if number in late else _as_usual(one) for one in sites]
         elif table == "asked":
             spoken = [one for one in sites if any(one.holds(one.file, place.line) for place in asked)]
             is_near = number in shares or number in begun
@@ -105,8 +109,9 @@ def mission_lines(
             if table == "goal" and not is_spoken:  # later where others were asked for it in time, or at any time
                 is_spoken = number in behind
                 site = replace(site, edits=site.edits[-1:] if is_spoken else site.edits[:-1] or site.edits)
-                is_spoken = is_spoken or number in late
+                is_spoken = is_spoken or number in cut_off
             is_promised = table == "property" or (table == "asked" and number in shares)
+            is_promised = is_promised or (table == "goal" and number in promised & late)
             source = Suspicion.CONFLICT if is_spoken or is_promised else Suspicion.TRACE
             nearest = _SPOKEN + _AMONG * bool(site.unlike)
             is_warned = table == "goal" and bool(site.wanted)
@@ -143,6 +148,17 @@ def _warned(site: EditSite, lines: Collection[tuple[str, int]]) -> EditSite:
     if not any(site.holds(*line) for line in lines):
         return site
     return replace(site, wanted=frozenset((one.begin, one.new) for one in site.edits))
+
+
+def _is_narrowest(goals: Sequence[GoalConfiguration], number: int) -> bool:
+    """Whether a goal leaves less time for its beginning than all others of the mission (8 of 11 mistaken windows)."""
+    widths = {at: one.start[1] - one.start[0] for at, one in enumerate(goals) if one.start is not None}
+    return number in widths and all(widths[number] < width for at, width in widths.items() if at != number)
+
+
+def _as_usual(site: EditSite) -> EditSite:
+    """The site of a goal whose times are as usual, so that others are hardly meant."""
+    return replace(site, unlike=frozenset((one.begin, one.new) for one in site.edits))
 
 
 def _cut_off(mission: Mission, outcome: Outcome) -> frozenset[int]:

@@ -175,7 +175,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             told = _TOLD * usage.mentions.is_found_out(said_of(edit.new).strip(), site)
             return told + (_HANDED_ON if is_namesake(edit.new) else _LINE)
         case EditKind.MISSION:
-            return 3.0
+            return 3.0 + _UNLIKE * ((edit.begin, edit.new) in site.unlike)
         case EditKind.SETTING:
             return 1.0 + _OCTAVE * octaves(edit) + _DIGIT * (digits(edit.new) - digits(edit.old))
         case EditKind.SWAP:

@@ -192,7 +192,7 @@ def try_out(
     spoken = sum(candidate.source is Suspicion.CONFLICT for candidate, _ in outside)
     share = _MODELS if outside else 1.0
     while turns:
-        kept = _reserve(best, others, trials.bounds) + (spoken if _small(best) else len(outside))
+        kept = _reserve(len(best) + bool(spoken), others, trials.bounds) + (spoken if _small(best) else len(outside))
         if not trials.may_go_on(kept, share) and (_small(best) or not trials.lengthen()):
             break
         at, candidate, edit = turns.pop()
@@ -230,7 +230,7 @@ def try_out(
     small = _small(best)
     for candidate, edit in outside:
         is_wanted = candidate.source is Suspicion.CONFLICT or small < (_TOLD if edit.kind is EditKind.GOAL else 1)
-        if is_wanted and trials.may_go_on(_reserve(best, others, trials.bounds)):
+        if is_wanted and trials.may_go_on(_reserve(len(best), others, trials.bounds)):
             tried.add((candidate.site, edit))
             result = trials.fly(edit, failed[0])
             if result.verdict is Verdict.PASS:
@@ -258,9 +258,9 @@ def _by_turns(last: Sequence[Candidate]) -> list[tuple[Candidate, SmallEdit]]:
     return [(candidate, edit) for candidate, edit, _ in found]
 
 
-def _reserve(best: Mapping[EditSite, LineTrial], others: int, bounds: Bounds) -> int:
+def _reserve(causes: int, others: int, bounds: Bounds) -> int:
     """Flights that are kept for the other missions: for each cause that is known, and for one more."""
-    return min(min(len(best) + 1, _CONFIRMED) * others, int(_KEPT * bounds.flights))
+    return min(min(causes + 1, _CONFIRMED) * others, int(_KEPT * bounds.flights))
 
 
 def _is_culprit(candidate: Candidate) -> bool:

@@ -62,7 +62,7 @@ internal = ["lock"]
 [[goal]]
 timeline = "watch"
 predicate = "Look"
-start = [120, 130]
+start = [120, 180]
 mandatory = true
 [[goal]]
 timeline = "work"
@@ -81,9 +81,12 @@ LATER = 'kind = "reached"\ntimeline = "lock"\npredicate = "Open"\nfrom = 150'
 LEVEL = 'kind = "level"\nresource = "water"\nreactor = "pilot"\nlevel = [80, 100]'
 
 
-def told(folder: Path, capsys: pytest.CaptureFixture[str], promise: str) -> list[tuple[str, str, str]]:
+def told(
+    folder: Path, capsys: pytest.CaptureFixture[str], promise: str, change: tuple[str, str] = ("", "")
+) -> list[tuple[str, str, str]]:
     """The lines of the mission file among the causes, each with the value that mends."""
-    files = {"lock.nddl": SHARED, "pilot.nddl": PILOT, "keeper.nddl": KEEPER, "mission.toml": MISSION % promise}
+    mission = (MISSION % promise).replace(*change)
+    files = {"lock.nddl": SHARED, "pilot.nddl": PILOT, "keeper.nddl": KEEPER, "mission.toml": mission}
     (fault,) = faults_of(folder, capsys, files)
     assert fault["code"] == "P1"
     ranked = [one for one in fault["causes"]["ranked"] if one["file"] == "mission.toml"]
@@ -95,7 +98,15 @@ def test_a_goal_that_comes_too_late_for_a_promise_is_named_and_no_other(
 ) -> None:
     found = told(tmp_path, capsys, REACHED)
     assert ("start = [90, 120]", "[0, 200]", "mends") in found
-    assert "start = [120, 130]" not in [text for text, *_ in found]
+    assert "start = [120, 180]" not in [text for text, *_ in found]
+    assert found[0][0] == "start = [90, 120]"  # the narrowest window of the mission, sooner than the promise
+
+
+def test_a_promise_is_rather_wrong_than_a_window_as_wide_as_others(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    found = told(tmp_path, capsys, REACHED, ("start = [120, 180]", "start = [120, 130]"))
+    assert found[0][0] == "by = 100"
 
 
 def test_what_is_promised_from_a_tick_on_may_come_before(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
