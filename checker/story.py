@@ -326,14 +326,17 @@ def _wished(outcome: Outcome, agent: AgentConfiguration, text: ModelText | None)
 
     Of what it promises within a time what led there was asked for since, and the same on other timelines.
     """
-    programs = [text.programs[one.name] for one in agent.reactors] if text is not None else []
-    goals = promised_goals(outcome, agent, programs) if programs else frozenset[int]()
+    known = text.programs if text is not None else {}
+    programs = [known[one.name] for one in agent.reactors if one.name in known]  # none of a model in error
+    if len(programs) < len(agent.reactors):
+        return
+    goals = promised_goals(outcome, agent, programs)
     requests = [one for one in single_events(outcome.events) if one.kind is EventKind.REQUEST]
     for event in requests if len(goals) <= _MOST_GOALS else ():
         number = -1 if event.request is None else -event.request - 1
         if not event.reactor and number in goals:
             yield Step(StepKind.EVENT, event.tick, event, dict(agent.goals[number].places).get("start"))
-    for kept in of_first_violated(outcome, agent.properties) if programs else ():
+    for kept in of_first_violated(outcome, agent.properties):
         broken = first_violated(outcome)
         if kept.kind is PropertyKind.WITHIN and kept.then is not None and broken is not None:
             due, wanted = range(broken.tick or 0, (broken.tick or 0) + kept.ticks + 1), kept.then

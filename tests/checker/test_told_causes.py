@@ -68,6 +68,18 @@ def test_causes_are_told_of_models_that_are_in_error_now(tmp_path: Path, capsys:
     assert first_cause(page) == before
 
 
+PROMISE = '[[property]]\nname = "soon"\nkind = "reached"\ntimeline = "motor"\npredicate = "Run"\nby = 9\n'
+
+
+def test_a_missed_promise_is_told_of_models_that_are_in_error_now(tmp_path: Path, capsys: Page) -> None:
+    model = MODEL.replace("RUN_MAX = 12", "RUN_MAX = 40")
+    told = checked(tmp_path, capsys, model, MISSION + GOAL.format(5) + PROMISE, "--flights", "0")
+    assert "the property `soon` is violated" in told
+    assert "the mission file requests Transect" in explained(capsys, "--flights", "0")
+    (tmp_path / "planner.nddl").write_text(model + "Survey::\n")
+    assert "the mission fails (P1" in explained(capsys, "--flights", "0")
+
+
 def test_where_nothing_was_tried_no_line_is_blamed(tmp_path: Path, capsys: Page) -> None:
     checked(tmp_path, capsys, MODEL, MISSION + GOAL.format(5), "--flights", "0")
     page = explained(capsys, "--flights", "0")
