@@ -36,6 +36,7 @@ from runtime.executive.outcome import (
     Abort,
     Conflict,
     ConflictElement,
+    Deadlock,
     ElementKind,
     Event,
     EventKind,
@@ -252,11 +253,25 @@ def _conflict(
 
 
 def _as_tried(steps: list[Step], failed: Failed) -> list[Step]:
-    """The steps of a conflict that a search came to: an order of tokens in it is one that was tried in vain."""
-    if failed.deadlock is None or all(one is not failed.conflict for one in failed.deadlock.conflicts()):
-        return steps
-    orders = [isinstance(one.subject, ConflictElement) and one.subject.kind is ElementKind.ORDER for one in steps]
-    return [replace(step, is_tried=is_order) for step, is_order in zip(steps, orders, strict=True)]
+    """The steps of a conflict that a search came to: where it put what it found no place for was tried in vain."""
+    flaws = set(_flaws_in(failed.deadlock))
+    return [replace(step, is_tried=_is_order_of(step.subject, flaws)) for step in steps]
+
+
+def _flaws_in(deadlock: Deadlock | None) -> Iterator[str]:
+    """The names of what had no choice left."""
+    if deadlock is not None:
+        yield from (deadlock.flaw.name,) if deadlock.flaw is not None else ()
+        for one in deadlock.tried:
+            yield from _flaws_in(one.leads_to)
+
+
+def _is_order_of(subject: object, names: Container[str]) -> bool:
+    """Whether an element is an order of a token with one of the names and another one."""
+    if not isinstance(subject, ConflictElement) or subject.kind is not ElementKind.ORDER:
+        return False
+    tokens = {str(one.token) for one in subject.variables if one.token is not None}
+    return len(tokens) > 1 and any(one in names for one in tokens)
 
 
 def _with_askers(

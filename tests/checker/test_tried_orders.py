@@ -4,8 +4,11 @@ from pathlib import Path
 
 from checker.rendering import step_text
 from checker.steps import StepKind
+from tests.checker.fault_study import faults_in, laid_out
 from tests.checker.told_steps import JOB_MISSION, failed_mission, steps_of
 
+FERRY = Path(__file__).parent / "unseen" / "ferry"
+RAISED_TOO_LONG = 1  # the fault by its index
 SHARED = """#include "TREX.nddl"
 class Job extends AgentTimeline { predicate Free { } predicate Do { } Job(Mode m) { super(m, "Free"); } }
 class Dev extends AgentTimeline { predicate Off { } predicate Run { int n; } Dev(Mode m) { super(m, "Off"); } }
@@ -42,3 +45,13 @@ def test_an_order_that_a_search_gave_up_again_is_no_fact(tmp_path: Path) -> None
     told = [step_text(step, story) for step in steps if step.kind in (StepKind.CAUSE, StepKind.FAULT)]
     assert "by the order of tokens" not in " ".join(told)
     assert any(text.endswith("(by an order of tokens that was tried in vain)") for text in told)
+
+
+def test_an_order_of_what_happened_is_told_as_before(tmp_path: Path) -> None:
+    """The bridge was down, and then raised: the river found no place for `Up` alone."""
+    place = laid_out(FERRY, list(faults_in(FERRY))[RAISED_TOO_LONG], tmp_path / "ferry")
+    given, failed = failed_mission(place, 4)
+    story = given.story(failed, None)
+    told = [step_text(step, story) for step in story.steps if step.kind is StepKind.CAUSE]
+    assert "Bridge.Down#1.end <= Bridge.Raising#26.start (by the order of tokens)" in told
+    assert "Bridge.Up#10.end <= Bridge.Down#1.start (by an order of tokens that was tried in vain)" in told
