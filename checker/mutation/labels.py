@@ -1,7 +1,7 @@
 """Goals and the lines of models in; the parameters out that only tell tokens apart, such as the number of an order.
 
-Where the goals on a timeline have the numbers 1, 2 and 3, that says which is which, and no quantity: nothing is
-computed from it. So it is with the parameters of other tokens that it is handed on to.
+Where the goals on a timeline have the numbers 1, 2 and 3, or two of them 1 and 2, that says which is which, and no
+quantity: nothing is computed from it. So it is with the parameters of other tokens that it is handed on to.
 """
 
 import re
@@ -14,6 +14,7 @@ from runtime.executive.configuration import GoalConfiguration
 Label = tuple[str, str]  # a predicate, without its class, and a parameter
 
 _SERIES = 3  # goals that each have a number of their own
+_PAIR = {1, 2}  # or two that are the first and the second: 5 of 5 such pairs in right models are names
 _LABELLED = re.compile(r"\(\s*([A-Za-z_][\w.]*)\s+(\w+)\s*\)")
 _SAME = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==\s*([A-Za-z_][\w.]*)\s*;")
 _COMPUTES = re.compile(r"[-+*/<>]|\b(?!contains|any|starts|ends|meets|met_by|if)\w+\s*\(")
@@ -66,7 +67,7 @@ def _counted(goals: Sequence[GoalConfiguration]) -> set[Label]:
 
 def _is_series(values: Sequence[object]) -> bool:
     numbers = {one for one in values if isinstance(one, int) and not isinstance(one, bool)}
-    is_whole = len(values) >= _SERIES and len(numbers) == len(values)
+    is_whole = (len(values) >= _SERIES or numbers == _PAIR) and len(numbers) == len(values)
     return is_whole and max(numbers) - min(numbers) == len(values) - 1
 
 

@@ -47,7 +47,7 @@ missions = 1
 """
 
 
-@pytest.mark.parametrize("numbers", [(1, 2, 3), (3, 1, 2), (1, 2, 4), (1, 2, 2)])
+@pytest.mark.parametrize("numbers", [(1, 2, 3), (3, 1, 2), (1, 2), (1, 2, 4), (1, 2, 2), (2, 3), (1,)])
 def test_what_goals_are_counted_by_is_never_a_term(numbers: tuple[int, int, int], tmp_path: Path) -> None:
     goals = "".join(GOAL % (number, 50 + k, 200) for k, number in enumerate(numbers))
     (tmp_path / "m.nddl").write_text(MODEL)
@@ -57,7 +57,7 @@ def test_what_goals_are_counted_by_is_never_a_term(numbers: tuple[int, int, int]
     models = load_models(mission)
     sites = sites_in(models.agent)
     labels = labels_of(mission.agent.goals, sites)
-    is_counted = sorted(numbers) == [1, 2, 3]
+    is_counted = sorted(numbers) in ([1, 2, 3], [1, 2])
     assert labels == ({("Order", "number"), ("Bake", "loaf")} if is_counted else frozenset())  # weights are compared
     (line,) = (one for one in sites if one.text == "time == 40;")
     added = {edit.new for edit in line.edits if edit.kind is EditKind.MISSING}
