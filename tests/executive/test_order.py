@@ -1,4 +1,4 @@
-"""Reactors that do not wait for each other have their turns in the order of the mission file, whatever they are."""
+"""Reactors of a mission file, and what a rule asks for, have their turns in the order in which they are written."""
 
 from pathlib import Path
 
@@ -7,6 +7,7 @@ import pytest
 from checker.flight import fly_programs
 from checker.mission import read_mission
 from checker.models import load_models
+from runtime.executive.configuration import GoalConfiguration
 from tests.executive.flying import fly, lines, planner, simulator
 from tests.programs import programs_of
 
@@ -40,6 +41,29 @@ def test_the_file_decides(tmp_path: Path, order: tuple[str, str]) -> None:
     agent = load_models(mission).agent
     outcome = fly_programs(agent, programs_of(agent), 1)
     assert tuple(dict.fromkeys(event.reactor for event in outcome.events if event.reactor)) == order
+
+
+@pytest.mark.parametrize("guard", ["{0}", "if (n == 1) {{ {0} }}"])
+def test_what_a_rule_asks_for_on_one_timeline_is_done_in_the_order_of_its_lines(guard: str) -> None:
+    arm = "class Arm extends AgentTimeline { predicate Rest { } predicate Act { int n; } "
+    arm += 'Arm(Mode m) { super(m, "Rest"); } } '
+    task = "class Task extends AgentTimeline { predicate Idle { } predicate Do { int n; } "
+    task += 'Task(Mode m) { super(m, "Idle"); } } '
+    asked = [f"contains(Arm.Act a{k}); a{k}.n == n + {k};" for k in range(3)]
+    rule = f"Task::Do {{ {asked[0]} {asked[1]} {guard.format(asked[2])} }} "
+    outcome = fly(
+        planner(
+            "plan",
+            arm + task + rule + "Task task = new Task(Internal); Arm arm = new Arm(External); close();",
+            "task",
+            "arm",
+        ),
+        simulator("arms", arm + "Arm::Act { duration == 3; } Arm arm = new Arm(Internal); close();", "arm"),
+        until=30,
+        goals=(GoalConfiguration("task", "Do", 0, True, (5, 5), None, None, (("n", 1),)),),
+    )
+    done = [line.partition("arm ")[2] for line in lines(outcome, "observation") if "Act" in line]
+    assert done == ["Act(n=1)", "Act(n=2)", "Act(n=3)"]
 
 
 def test_a_failing_user_comes_right_behind_its_owners_and_ends_the_tick_for_all_others() -> None:

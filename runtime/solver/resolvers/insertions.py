@@ -71,8 +71,8 @@ def _list_behind_goals(agenda: Agenda, stack: Decisions, start: int, t: int) -> 
 
     A goal that asked for no later start but waits for such goals comes before `t`, too: equals keep their order. Then
     come the later ones, and the earlier ones from right to left. Who plans for an executive keeps goals from waiting by
-    this; otherwise the order is EUROPA's, from left to right. So is that among what one goal asks for, but behind what
-    owners were asked for before: they carry that out in this order.
+    this; otherwise the order is EUROPA's, from left to right. What one goal asks for keeps the order of its asking
+    (T-REX tries later places first), and comes behind what owners were asked for before: they do it in this order.
     """
     engine = agenda.engine
     origin = _origin(agenda, t)
@@ -95,7 +95,7 @@ def _list_behind_goals(agenda: Agenda, stack: Decisions, start: int, t: int) -> 
         if not (is_sent or agenda.rows.flags[asker] & FLAG_GOAL):
             continue
         if is_child:
-            is_first = asker != origin and engine.base_lower(agenda.rows.var0[asker] + START) <= engine.lb[asked]
+            is_first = engine.base_lower(agenda.rows.var0[asker] + START) <= engine.lb[asked]
         else:
             is_first = after == asker and engine.base_lower(theirs + START) <= engine.lb[asked]
         if begin > free and (not is_first or agenda.filters.scope.may_overtake(t, after)):
