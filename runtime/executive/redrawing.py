@@ -18,17 +18,18 @@ def draw_anew(bench: Workbench, draws: Draws, goals: Goals, tick: int) -> bool:
     for token in draws.outdated(bench, tick):
         if not bench.is_active(token):
             continue  # it has made way
-        holds = _renew(bench, goals, token)
+        holds = _renew(bench, draws, goals, token)
         if not holds and draws.is_reactive:
-            holds = _begin_first(bench, goals, token, tick) or _settle(bench, draws, goals, token, tick)
+            holds = _begin_first(bench, draws, goals, token, tick) or _settle(bench, draws, goals, token, tick)
         if not holds:
             break
     draws.begins = {}
     return holds
 
 
-def _renew(bench: Workbench, goals: Goals, token: int) -> bool:
+def _renew(bench: Workbench, draws: Draws, goals: Goals, token: int) -> bool:
     """Let the rules of a token fire anew; what they asked for and has begun before it goes on, and they find it."""
+    draws.undrawn.pop(token, None)  # a guard may have to be decided before they draw
     if not any(_asked_for(bench, line.current, token) for line in goals.timelines):
         return bench.renew(token)
     seen = hold_present(bench, goals.timelines)
@@ -45,21 +46,21 @@ def _asked_for(bench: Workbench, t: int, token: int) -> bool:
     return False
 
 
-def _begin_first(bench: Workbench, goals: Goals, token: int, tick: int) -> bool:
+def _begin_first(bench: Workbench, draws: Draws, goals: Goals, token: int, tick: int) -> bool:
     """Let what else was asked for and waits make way for a token that may begin now; it is planned again."""
     own = bench.root(token)
     for goal in goals.live():
         other = goal.token
         if other != own and bench.is_alive(other, goal.token_key) and bench.is_waiting(other, tick):
             bench.cancel(other)
-    return _renew(bench, goals, token)
+    return _renew(bench, draws, goals, token)
 
 
 def _settle(bench: Workbench, draws: Draws, goals: Goals, token: int, tick: int) -> bool:
     """Let wait what cannot begin now whatever is drawn; where only the draw is in the way, give up its goal."""
     conflict = conflict_of(bench)
     draws.is_put_off = True
-    holds = _renew(bench, goals, token)
+    holds = _renew(bench, draws, goals, token)
     draws.is_put_off = False
     if holds and bench.lower(bench.start(token)) > tick:
         return True
@@ -72,7 +73,7 @@ def leave_open(bench: Workbench, draws: Draws, goals: Goals, tick: int) -> bool:
         return False
     draws.is_put_off = True
     for token in draws.waiting(bench, tick):
-        _renew(bench, goals, token)
+        _renew(bench, draws, goals, token)
     for token in goals.missed():
         goals.rejections.pop(token, None)
         bench.cancel(token)
