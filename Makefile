@@ -210,6 +210,7 @@ agents: build
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich --deep
 	$(BIN)/python -m tests.executive.generated.campaign $(AGENTS) --wide --rich --deep --ranks --batches 50
 	$(BIN)/python -m tests.executive.generated.redrawn $(AGENTS)
+	$(BIN)/python -m tests.executive.generated.choiceless $(AGENTS)
 
 second: build
 	$(BIN)/python -m tests.executive.second.campaign $(AGENTS)

@@ -1,5 +1,6 @@
 """Register code: what a determined reactor does when one of its tokens starts, as integers for a compiled loop."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from compiler.program import PredicateCode
@@ -14,6 +15,9 @@ MOVE, MUL_ADD, UNLESS_SAME = range(32, 35)  # several copies; a product and a su
 BEGIN, MERGE, PREVIOUS, FOLLOW, LAST_EXACTLY, LAST_LEAST, LAST_MOST, TIE, WITHIN, MEMBER, ORDER, PLANNED = range(35, 47)
 COPIES = 47  # three copies, one after the other: results and sources in turn
 TARGET = {WHEN_FALSE: 2, WHEN_TRUE: 2, UNLESS_SAME: 4}  # where a jump has the number of an instruction
+_NEVER_STOP = {HALT, COPY, ADD, SUB, MUL, NEG, ABS, MIN, MAX, FLOOR, CEIL, LEQ, LESS, EQUAL, SAME, NOT, AND, OR, CLEAR}
+_NEVER_STOP |= {WHEN_FALSE, WHEN_TRUE, UNLESS_SAME, DRAW, MOVE, COPIES, MUL_ADD}
+_BOUNDS = {LAST_EXACTLY, LAST_LEAST, LAST_MOST}
 STRIDE = 8  # numbers of an instruction: operation, result, up to six operands
 
 _FLOAT_TOLERANCE = 1e-5  # that of the engine
@@ -53,6 +57,13 @@ class BlockToken:
     context: tuple[tuple[int, bool], ...]
 
 
+def begun_with(tokens: Sequence[BlockToken], token: BlockToken) -> Iterator[BlockToken]:
+    """The tokens by whose rules a token begins, one after the other, up to the root of the block."""
+    while token.parent >= 0:
+        token = tokens[token.parent]
+        yield token
+
+
 @dataclass(frozen=True, slots=True)
 class GuardRecord:
     """A guard of a rule instance and the register of its condition."""
@@ -88,6 +99,19 @@ class RegisterBlock:
     locals: tuple[LocalRecord, ...]
     draws: tuple[int, ...]
     is_sure: bool  # whether all parameters of the tokens that begin must have a value
+
+    def always_begins(self, layout: "RegisterLayout") -> bool:
+        """Whether it begins at any time, by code that cannot stop: it bounds no end but by one known length."""
+        told = layout.current[self.line] + layout.widths[self.line] - 1 if layout.tells_lengths else -1
+        lengths = 0
+        for operation, *operands in self.instructions:
+            if operation in _BOUNDS:
+                lengths += 1
+                if lengths > 1 or not (operands[1] == told or layout.presets.get(operands[1], 0.0) >= 1.0):
+                    return False
+            elif operation not in _NEVER_STOP and (operation != FOLLOW or operands[0] != self.line):
+                return False
+        return True
 
 
 @dataclass(eq=False, slots=True)

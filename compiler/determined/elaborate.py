@@ -3,7 +3,7 @@
 from itertools import pairwise
 
 from compiler.determined import code
-from compiler.determined.code import BlockToken, GuardRecord, LocalRecord, RegisterLayout, Shown
+from compiler.determined.code import BlockToken, GuardRecord, LocalRecord, RegisterLayout, Shown, begun_with
 from compiler.determined.domains import drawn, equation, within
 from compiler.determined.items import Context, Item, Worksheet
 from compiler.determined.model import ReactorModel, values_of
@@ -43,8 +43,7 @@ class Elaboration:
     def __init__(
         self, model: ReactorModel, layout: RegisterLayout, line: int, predicate: PredicateCode, mask: int
     ) -> None:
-        self.model = model
-        self.layout = layout
+        self.model, self.layout = model, layout
         self.sheet = Worksheet()
         self.tokens: list[BlockToken] = []
         self.banks: list[int] = []
@@ -142,6 +141,8 @@ class Elaboration:
             raise UndeterminedError(FreeChoice.ASKED_OF_OTHERS, what, span)
         if line == parent.line and how in (TOGETHER, MERGED):
             raise UndeterminedError(FreeChoice.OPEN_TIMES, what, span)
+        if how == TOGETHER and any(each.line == line for each in begun_with(self.tokens, parent)):
+            raise UndeterminedError(FreeChoice.MERGED, what, span)
         if how == PREVIOUS and line != parent.line:
             raise UndeterminedError(FreeChoice.OPEN_TIMES, what, span)
         if how == MERGED:
@@ -158,17 +159,13 @@ class Elaboration:
         elif child.relation == "contained_by":
             self._act((code.WITHIN, parent.line, line), context, span, what, 0)
         elif child.relation == "starts_during":
-            self._act((code.LAST_LEAST, line, self._after_now()), context, span, what, 0)
+            self._act((code.LAST_LEAST, line, self.layout.constant(1.0)), context, span, what, 0)
         elif how == FOLLOWING:
             bank = tuple(self.banks[number] + k for k in range(len(predicate.parameters)))
             if self.layout.tells_lengths:
                 bank += (self._lasting(number),)
             act = (code.FOLLOW, line, parent.line, number)
             self.sheet.items.append(Item(context, span, what, bank, (), (act,), 1))
-
-    def _after_now(self) -> int:
-        """A register that holds the tick after now."""
-        return self.layout.constant(1.0)
 
     # ---- bodies ----
 

@@ -13,6 +13,7 @@ class FreeChoice(Enum):
     NO_TIMELINE = "`{name}` is on no timeline that the reactor owns or uses"
     SEVERAL_OBJECTS = "`{name}` may be on several timelines"
     OPEN_TIMES = "`{name}` leaves open when its token starts"
+    MERGED = "`{name}` asks for what it begins with itself, and both may be one token"
     ASKED_OF_OTHERS = "`{name}` is asked of another reactor"
     RESOURCE = "`{name}` is no predicate of a timeline"
     CLOCK = "`{name}` reads the clock"
@@ -34,6 +35,7 @@ _ADVICE = {
     FreeChoice.SEVERAL_OBJECTS: "write the timeline before the predicate: `arm.Rest`; `object.Rest` for the rule's own",
     FreeChoice.OPEN_TIMES: "say when it starts: `starts`, `equals` (now), `meets` (next), `met_by` (before), or "
     "`contained_by` (what holds already)",
+    FreeChoice.MERGED: "let one of the two rules ask for the other's token, and not both for each other",
     FreeChoice.ASKED_OF_OTHERS: "let a planner ask for it; a simulator may read what holds there with `contained_by`",
     FreeChoice.RESOURCE: "leave resources to the planner",
     FreeChoice.CLOCK: "read the `start` of the token: the rule runs at that tick",

@@ -9,7 +9,7 @@ from compiler.determined.assemble import compile_block
 from compiler.determined.code import FOLLOW, STRIDE, TARGET, Line, RegisterBlock, RegisterLayout
 from compiler.determined.model import ReactorModel
 from compiler.determined.reasons import ChoiceReason, FreeChoice, UndeterminedError
-from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS, TOGETHER
+from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS, ROOT, TOGETHER
 from compiler.program import DomainConstant, PredicateCode, Program
 from runtime.determined.machine import Machine
 from runtime.determined.reading import TokenReading, outlines_of, readings_of
@@ -131,6 +131,12 @@ class RegisterProgram:
             self.names[:] = sorted(symbols, key=lambda name: symbols[name])
         return self.names
 
+    def begun_by(self, number: int) -> set[int]:
+        """The timelines on which a block begins something, now or next."""
+        block = self.blocks[number]
+        assert block is not None
+        return {token.line for token in block.tokens if token.how in (ROOT, TOGETHER, FOLLOWING)}
+
     def machine(self, world: object) -> Machine:
         """A machine on which nothing has happened yet."""
         machine = Machine(len(self.layout.lines), self.tables, world)
@@ -186,6 +192,7 @@ class RegisterProgram:
         )
         tables.block_mask = array("q", [0 if each is None else each.mask for each in self.blocks])
         tables.block_sure = array("q", [each is not None and each.is_sure for each in self.blocks])
+        tables.block_free = array("q", [each is not None and each.always_begins(layout) for each in self.blocks])
         tables.shown = array("q", self.shown or [0])
         tables.shown_first = array("q", self.shown_first)
 

@@ -5,7 +5,7 @@ from libc cimport math
 from runtime.determined.log cimport Log
 from runtime.determined.present cimport Present
 from runtime.determined.tables cimport CodeTables
-from runtime.determined.trial cimport fits_within, holds
+from runtime.determined.trial cimport can_follow, comes_between, fits_within, holds, leaves_next
 
 cdef long long BEFORE, CHANGES, DUE, ENDING, FOLLOWER, KIND, LINE, NONE, OWNER, PREDICATE, ROW
 cdef long long RUNS_ON, SHOWN, STOPS, VALUES, WISHED, WISH, WISH_FROM

@@ -34,7 +34,7 @@ from runtime.determined.tags import (
     WISH_FROM,
     WISHED,
 )
-from runtime.determined.trial import fits_within, holds
+from runtime.determined.trial import can_follow, comes_between, fits_within, holds, leaves_next
 
 _NAN, _TOLERANCE, _LARGEST = float("nan"), 1e-5, 2.0**51  # that of the engine's floats; what is larger is infinite
 
@@ -102,7 +102,7 @@ class Machine:
         n = self.lines
         tables = self.tables
         present = self.present
-        if not present.begin_tick(tick):
+        if not present.begin_tick(tick) or comes_between(present):
             return False
         # What follows goes aside before the blocks of this tick say what follows next.
         for i in range(n):
@@ -132,7 +132,7 @@ class Machine:
                 continue  # it has started already, or what holds goes on
             if not self.start_block(i, tick):
                 return False
-        return present.end_tick(tick)
+        return present.end_tick(tick) and can_follow(present, self.tables)
 
     def can_start(self, i: int, tick: int) -> bool:
         """Try out whether what was asked for on a timeline has consistent values; the caller goes back."""
@@ -354,7 +354,7 @@ class Machine:
                 if present.changed >> out & 1 or present.state[DUE * n + out] >= 0:
                     return False
                 if present.state[PREDICATE * n + out] >= 0 and not present.state[ENDING * n + out]:
-                    if not present.end_with(out):
+                    if not present.end_with(out) or leaves_next(present):
                         return False
                 self.start(out, a)
                 self.log.note(present.now, out, a, -1 - self.root_row)

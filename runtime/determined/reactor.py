@@ -184,7 +184,7 @@ class DeterminedReactor(TeleoReactor):
             for wish in self.wishes:
                 watched |= 1 << wish.line
                 limit = min(limit, max(self.final_tick - 1, tick + 1))
-                if wish is not self.publisher.asked.get(wish.line):
+                if len(self.wishes) > 1 or wish is not self.publisher.asked.get(wish.line):
                     limit = min(limit, max(wish.request.start[0] - self.machine.present.reach, tick + 1))
             self.reached = int(self.machine.run(tick, limit, watched))
             if self.machine.why == STOPS and self.reached == tick:
@@ -207,8 +207,9 @@ class DeterminedReactor(TeleoReactor):
             if best is None or wish.request.start[0] < best.request.start[0]:
                 chosen[wish.line] = wish
         reach = tick + self.machine.present.reach
-        near = [wish.line for wish in self.wishes if wish.request.start[0] <= reach]
         # Of two requests for the same time the planner says which comes first, or whether both have room.
+        soon = [wish.block for wish in self.wishes if wish.request.start[0] <= reach]
+        near = [line for block in soon for line in self.program.begun_by(block)]
         self.is_beyond = self.is_beyond or len(near) > len(set(near))
         if not self.is_beyond:
             self._return_to(tick)
@@ -217,11 +218,13 @@ class DeterminedReactor(TeleoReactor):
             self._hand_over(tick, True)
 
     def _is_open(self, tick: int) -> bool:
-        """Whether a request waits for another one that has started, or will soon be looked at."""
+        """Whether a request waits for another one that has started, or will soon be looked at, or several are near."""
         if not self.wishes:
             return False
         reach = tick + self.machine.present.reach
         asked = self.publisher.asked
+        if sum([wish.request.start[0] <= reach for wish in self.wishes]) > 1:
+            return True
         for wish in self.wishes:
             if self._comes_last(wish, tick):
                 return True

@@ -25,5 +25,6 @@ class CodeTables:
         self.block_predicate = array("q", [NONE])
         self.block_mask = array("q", [0])
         self.block_sure = array("q", [0])  # whether all parameters of its tokens must have a value
+        self.block_free = array("q", [0])  # whether it begins at any time
         self.shown = array("q", [0])  # registers, block after block
         self.shown_first = array("q", [0])

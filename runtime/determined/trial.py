@@ -1,8 +1,8 @@
-"""What holds when a token starts, or may hold when a start is tried out beforehand."""
+"""What holds when a token starts, or may hold when a start is tried out beforehand; which starts the planner orders."""
 
 from runtime.determined.present import Present
 from runtime.determined.tables import CodeTables
-from runtime.determined.tags import ENDING, FOLLOWER, LEAST, MOST, PREDICATE, SLOT
+from runtime.determined.tags import ENDING, FOLLOWER, LEAST, MOST, OWNER, PREDICATE, SLOT, WISH, WISH_FROM
 
 
 def holds(present: Present, tables: CodeTables, i: int, predicate: int, is_trial: bool) -> bool:
@@ -32,4 +32,38 @@ def fits_within(present: Present) -> bool:
         least = present.state[LEAST * n + present.state[SLOT * n + present.state[at]]]
         if least > most > present.now and present.is_kept(at):
             return False
+    return True
+
+
+def leaves_next(present: Present) -> bool:
+    """Whether a token has been ended by a start of this tick, when what is to follow it could no longer be taken in."""
+    n = present.lines
+    for i in range(n):
+        owner = present.state[OWNER * n + i]
+        if present.state[FOLLOWER * n + i] >= 0 and present.state[ENDING * n + owner]:
+            if not present.changed >> owner & 1:
+                return True
+    return False
+
+
+def comes_between(present: Present) -> bool:
+    """Whether what was asked for may start where something is to follow a token of another timeline that goes on."""
+    n = present.lines
+    for i in range(n):
+        owner = present.state[OWNER * n + i]
+        if present.state[FOLLOWER * n + i] >= 0 and owner != i and not present.state[ENDING * n + owner]:
+            if present.state[WISH * n + i] >= 0 and present.state[WISH_FROM * n + i] <= present.now:
+                return True
+    return False
+
+
+def can_follow(present: Present, tables: CodeTables) -> bool:
+    """Whether all that is to follow an end that is still open begins at any time: the planner has it in its plan."""
+    n = present.lines
+    for i in range(n):
+        block = present.state[FOLLOWER * n + i]
+        if block >= 0 and not tables.block_free[block]:
+            slot = present.state[SLOT * n + present.state[OWNER * n + i]]
+            if present.state[LEAST * n + slot] != present.state[MOST * n + slot]:
+                return False
     return True
