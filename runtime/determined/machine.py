@@ -132,7 +132,7 @@ class Machine:
                 continue  # it has started already, or what holds goes on
             if not self.start_block(i, tick):
                 return False
-        return present.end_tick(tick) and can_follow(present, self.tables)
+        return can_follow(present, self.tables) and present.end_tick(tick)
 
     def can_start(self, i: int, tick: int) -> bool:
         """Try out whether what was asked for on a timeline has consistent values; the caller goes back."""

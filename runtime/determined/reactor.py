@@ -348,7 +348,7 @@ class DeterminedReactor(TeleoReactor):
     def _hand_over(self, tick: int, is_synchronised: bool) -> PlanReactor:
         """Become a general reactor that knows what came from outside; `is_synchronised`: the present of `tick` too."""
         self.publisher.tell(tick if is_synchronised else tick - 1, 0)
-        witness = self._new_shadow()
+        self.witness = witness = self._new_shadow()
         witness.catch_up(tick, is_synchronised)
         self.general = general = witness.reactor
         take_over(general, self.trace)

@@ -58,7 +58,7 @@ def comes_between(present: Present) -> bool:
 
 
 def can_follow(present: Present, tables: CodeTables) -> bool:
-    """Whether all that is to follow an end that is still open begins at any time: the planner has it in its plan."""
+    """Whether all that is to follow an end that the lines of its token leave open begins at any time: it is planned."""
     n = present.lines
     for i in range(n):
         block = present.state[FOLLOWER * n + i]

@@ -147,7 +147,9 @@ def _endless(tick: int, planner: object, reactors: list[TeleoReactor]) -> str:
 
 def _most_planned(reactors: list[TeleoReactor]) -> str:
     """Which tokens a plan has most of, of that reactor which has the most, and which line asks for them."""
-    plans = [reactor for reactor in reactors if isinstance(reactor, PlanReactor)]
+    plans = [plan for plan in map(_planning, reactors) if plan is not None]
+    if not plans:
+        return ""
     largest = max(plans, key=lambda reactor: reactor.bench.rows.token_count)
     rows, database = largest.bench.rows, largest.bench.database
     asked = Counter((rows.predicate[t], rows.span[t]) for t in largest.bench.all_tokens() if rows.parent[t] >= 0)
@@ -158,6 +160,13 @@ def _most_planned(reactors: list[TeleoReactor]) -> str:
     tokens = "token" if count == 1 else "tokens"
     place = f", for {spans[span].source.name}:{spans[span].line}" if 0 <= span < len(spans) else ""
     return f"; `{largest.name}` plans {count} {tokens} `{database.program.predicates[predicate].name}`{place}"
+
+
+def _planning(reactor: TeleoReactor) -> PlanReactor | None:
+    """A reactor that plans: itself, or the one that has taken over, or was about to, from register code."""
+    if isinstance(reactor, DeterminedReactor):
+        return reactor.general or (reactor.witness.reactor if reactor.witness is not None else None)
+    return reactor if isinstance(reactor, PlanReactor) else None
 
 
 def _unloaded(configuration: AgentConfiguration, problem: UnusableModelError, world: World) -> Outcome:

@@ -64,3 +64,23 @@ def test_a_plan_that_takes_in_ever_more_ends_with_the_line_that_asks(
     ) as found:
         work_without_an_end()
     assert "max_depth" in found.value.advice
+
+
+SIMULATED = """
+class Tap extends AgentTimeline { predicate Shut { } predicate Run { } Tap(Mode m) { super(m, "Shut"); } }
+class Arm extends AgentTimeline { predicate Rest { } predicate Wipe { int k; } Arm(Mode m) { super(m, "Rest"); } }
+Tap::Run { meets(Arm.Wipe w); w.k == 2; w.duration == 1; }
+Arm::Wipe { met_by(object.Wipe w); }
+Tap tap = new Tap(Internal); Arm arm = new Arm(Internal); close();
+"""
+
+
+def test_a_simulator_that_takes_in_ever_more_once_it_is_planned_for_ends_with_the_line_that_asks(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(runtime.executive.mission, "Planner", partial(limited, 2**62, 4096))
+    goal = GoalConfiguration("tap", "Run", start=(3, 5))
+    with pytest.raises(
+        LimitError, match=r"more than 4096 changes.*`world` plans [0-9]+ tokens `Arm.Wipe`, for world.nddl:6"
+    ):
+        fly(simulator("world", SIMULATED, "tap arm"), goals=(goal,), until=30)
