@@ -14,7 +14,7 @@ from checker.codes import (
     UNKNOWN_KEY,
     WRONG_TYPE,
 )
-from checker.respelt import rewritten
+from checker.respelt import rewritten, word_in
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
 from nddl_lang.text.nearest import begun, nearest
 from nddl_lang.text.source import Anchor, Source, Span
@@ -141,7 +141,7 @@ class Table:
         if lacks is not None:  # told together
             self.text.diagnostics.remove(self._missing[lacks])
         for key in unknown:
-            span = self.text.key_span((*self.path, key))
+            span = word_in(self.text.key_span((*self.path, key)), key)
             close = _meant_word(key, self.asked)
             fixes = (Fix(f"write `{close}`", (Edit(span, close),)),) if close else ()
             advice = f"did you mean `{close}`?" if close else "known keys: " + ", ".join(self.asked)

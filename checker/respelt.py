@@ -1,5 +1,6 @@
 """A complaint about a misspelt name in a mission file in; the same with the fix that writes the right one out."""
 
+import re
 from collections.abc import Collection
 from dataclasses import replace
 
@@ -7,11 +8,25 @@ from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Span
 
+_PART = re.compile(r"""\"[^\"]*\"|'[^']*'|[^.\"']+""")
+
 
 def meant_name(name: str, known: Collection[str]) -> str | None:
     """The known name that was meant by another: the last part of it, as in `Nav.Hold`, or the nearest."""
     last = name.replace("::", ".").rpartition(".")[2]
     return last if last != name and last in known else nearest(name, known)
+
+
+def word_in(span: Span, name: str) -> Span:
+    """The part of a dotted key that is `name`, quoted or not; all of the key where none is."""
+    at = 0
+    for part in _PART.findall(span.text):
+        at = span.text.index(part, at)
+        if part.strip().strip("\"'") == name:
+            start = span.start + at + len(part) - len(part.lstrip())
+            return Span(span.anchor, start, start + len(part.strip()))
+        at += len(part)
+    return span
 
 
 def respelt(complaint: Diagnostic, name: str, known: Collection[str]) -> Diagnostic:

@@ -17,7 +17,7 @@ from nddl_lang.syntax.nodes import Include, Module, Statement
 from nddl_lang.syntax.parser import Parse, parse_block
 from nddl_lang.syntax.piece import Piece
 from nddl_lang.syntax.placement import TOP
-from nddl_lang.syntax.token_edits import Lexemes, LineGrammar, TokenEdit, token_edits, vocabulary
+from nddl_lang.syntax.token_edits import Lexemes, LineGrammar, TokenEdit, naming_edits, token_edits, vocabulary
 from nddl_lang.syntax.words import KINDS
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Severity
 from nddl_lang.text.source import Anchor, Source, Span
@@ -185,10 +185,11 @@ class _Trials:
             if not row.kinds:
                 continue
             grammar = LineGrammar(piece.kinds, first, row)
-            words = vocabulary(self._known, missing, Lexemes("", piece.kinds, piece.texts, piece.starts, piece.ends))
+            words = vocabulary(self._known, missing, _whole(piece))
             for edit in token_edits(row, (error.span.begin, error.span.finish), words):
                 if piece.mends or grammar.may_fit(edit):
                     found.append((edit.cost, number, error, edit))
+            found += [(edit.cost, number, error, edit) for edit in naming_edits(_whole(piece), words.missing)]
         found.sort(key=lambda each: each[:2])
         for _, _, error, edit in found:
             yield error, edit
@@ -235,6 +236,13 @@ def _piece_number(parse: Parse, offset: int) -> int:
             break
         number = at
     return number
+
+
+def _whole(piece: Piece) -> Lexemes:
+    """All lexemes of a piece."""
+    offset = piece.anchor.offset
+    starts, ends = [start + offset for start in piece.starts], [end + offset for end in piece.ends]
+    return Lexemes(piece.anchor.source.text, piece.kinds, piece.texts, starts, ends)
 
 
 def _row(piece: Piece, source: Source, line: int, focus: Span) -> tuple[int, Lexemes]:

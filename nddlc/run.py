@@ -11,7 +11,7 @@ from typing import Any
 
 import click
 
-from checker.causes import Failed, dead_ends, failed_by, goals_ruled_out, lines_that_rule_out, missed_after
+from checker.causes import Failed, dead_ends, failed_at, failed_by, goals_ruled_out, lines_that_rule_out, missed_after
 from checker.clock_table import clock_log
 from checker.culprit import culprit_of
 from checker.excerpts import Excerpts
@@ -21,7 +21,7 @@ from checker.one_flight import Flight, FlightSettings, fly, trace_text
 from checker.oracle import Verdict
 from checker.real_time import RealTimeClock
 from checker.rendering import failure_text, waiting_text
-from checker.waiting import waited_for
+from checker.waiting import kept_open_by, waited_for
 from nddlc.fitting import columns, say
 from nddlc.inputs import STORE, mission_here, write_text
 from nddlc.main import named
@@ -161,6 +161,9 @@ def _report(agent: AgentConfiguration, flight: Flight) -> str:
         ruled_out = goals_ruled_out(outcome) if outcome.abort is None else []
         if len(ruled_out) < 2:
             lines += _lines_of(failed_by(outcome), "what was wanted", excerpts)
+        for answer in kept_open_by(outcome, agent) if not ruled_out else ():
+            wanted = f"{token_text(answer.predicate, answer.arguments)}, which an open goal waits for"
+            lines += _lines_of(failed_at(answer), wanted, excerpts)
         for missed, failed in ruled_out[:_MOST_REASONS] if len(ruled_out) > 1 else ():
             lines += _lines_of(
                 failed, ", ".join(token_text(goal.predicate, goal.arguments) for goal in missed), excerpts

@@ -291,8 +291,9 @@ def _interval_type(context: Context, scope: Scope, interval: IntervalExpr) -> Ty
     lower, upper = number(interval.lower), number(interval.upper)
     if lower is not None and upper is not None and lower > upper:
         first, second = interval.lower.span.text, interval.upper.span.text
-        is_dash = second[:2] == "- " and 0.0 <= lower < -upper
-        swap = f"[{first} {second[2:]}]" if is_dash else f"[{second} {first}]"
+        is_apart = interval.lower.span.finish < interval.upper.span.begin and second[1:2] != " "
+        is_dash = second[:1] == "-" and not is_apart and 0.0 <= lower < -upper
+        swap = f"[{first} {second[1:].strip()}]" if is_dash else f"[{second} {first}]"
         fix = Fix(f"write `{swap}`", (Edit(interval.span, swap),), safe=False)
         help_ = f"between the bounds stands no `-`: write `{swap}`" if is_dash else None
         context.complain(REVERSED_INTERVAL.at(interval.span, help=help_, fixes=(fix,), lower=first, upper=second))

@@ -323,7 +323,8 @@ class Recovery:
 
     def _report_superfluous(self, index: int) -> None:
         text = self._b.texts[index]
-        fix = Fix(f"remove `{text}`", (Edit(self._b.at(index), ""),))
+        # What else is left out may have been meant as something else.
+        fix = Fix(f"remove `{text}`", (Edit(self._b.at(index), ""),), safe=text in (",", ";"))
         self._report(SUPERFLUOUS, index, text=text, fixes=(fix,))
 
     def _report_unclosed(self, opener: int, index: int) -> None:
@@ -396,5 +397,4 @@ class Recovery:
         b = self._b
         start = b.ends[first - 1] if first else 0
         end = b.ends[index] if index < len(b.ends) else b.piece.length
-        found = bisect_left(self._known, start)
-        return found < len(self._known) and self._known[found] <= end
+        return (found := bisect_left(self._known, start)) < len(self._known) and self._known[found] <= end

@@ -138,6 +138,22 @@ def token_edits(line: Lexemes, focus: tuple[int, int], words: Vocabulary) -> lis
     )
 
 
+def naming_edits(statement: Lexemes, missing: Sequence[str]) -> Iterator[TokenEdit]:
+    """A name that nothing declares, for each token that is asked for without one: `contains(Pump.Run)`."""
+    kinds = statement.kinds
+    for at in range(3, len(kinds) - 1):
+        is_path = kinds[at - 2 : at + 1] == ["IDENT", ".", "IDENT"] or kinds[at - 2 : at + 1] == [
+            "object",
+            ".",
+            "IDENT",
+        ]
+        asks = at >= 4 and kinds[at - 3] == "(" and kinds[at - 4] == "RELATION"
+        if is_path and asks and kinds[at + 1] == ")":
+            for name in missing:
+                end = statement.ends[at]
+                yield TokenEdit(_MISSING_NAME * 100, ((end, end, f" {name}"),))
+
+
 def _is_prose(line: Lexemes) -> bool:
     """Whether a line reads as a sentence that lacks its `//`: words in a row, and nothing that ends a statement."""
     before = line.text[: line.starts[0]].rpartition("\n")[2]

@@ -8,6 +8,8 @@ from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import HEADER
 
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)")
+_NAMES = re.compile(r"\((?:'[^']*',? ?)+\)")
+_PART = re.compile(r"'([^']*)'")
 _WORD = re.compile(r"[A-Za-z_/][^\s,;#\]}\"']*")
 _LIST_BEGINS = re.compile(r"^[^#\n=\"']*=[ \t]*\[", re.MULTILINE)
 _NO_VALUE = re.compile(r"\s*(?:\Z|\[[\[ \t]*[A-Za-z_]|[\w.\"'-]+[ \t]*=)")
@@ -41,8 +43,13 @@ def _split(source: Source, message: str) -> tuple[str, int]:
     offset = len(source.text) if place else 0
     if place and place[1]:
         offset = source.line_starts[min(int(place[1]), len(source.line_starts)) - 1] + int(place[2]) - 1
-    reason = message[: place.start()] if place else message
+    reason = _NAMES.sub(_dotted, message[: place.start()] if place else message)
     return reason[:1].lower() + reason[1:], offset
+
+
+def _dotted(names: re.Match[str]) -> str:
+    """The name of a table, whose parts `tomllib` tells as Python has them."""
+    return f"`{'.'.join(_PART.findall(names[0]))}`"
 
 
 def _span(source: Source, begin: int, finish: int) -> Span:

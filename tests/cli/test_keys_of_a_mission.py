@@ -50,3 +50,26 @@ def test_one_wrong_key_is_told_once(
         run(["lint", "--format", "json", "mission.toml"])
         told = json.loads(capsys.readouterr().out)["diagnostics"]
         assert len(told) == 1 and told[0]["line"] in (number + 1, number), (line, told)
+
+
+@pytest.mark.parametrize(
+    ("header", "typed"),
+    [
+        ("[parameters.TRIM]", "[parameter.TRIM]"),
+        ("[parameters.TRIM]", "[Parameters.TRIM]"),
+        ("[parameters.TRIM]", '[parameter."TRIM"]'),
+        ("[goal.parameters]", "[goal.parameter]"),
+    ],
+)
+def test_a_misspelt_word_of_a_header_is_mended_alone(
+    header: str, typed: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Captured
+) -> None:
+    shutil.copytree(ROOT / "templates" / "noise", tmp_path, dirs_exist_ok=True)
+    path = tmp_path / "mission.toml"
+    text = path.read_text(encoding="utf-8")
+    assert header in text
+    path.write_text(text.replace(header, typed, 1), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    assert run(["lint", "--fix", "mission.toml"]) == 0, capsys.readouterr().out
+    mended = path.read_text(encoding="utf-8")
+    assert mended == text or mended == text.replace(header, '[parameters."TRIM"]')

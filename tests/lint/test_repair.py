@@ -60,6 +60,10 @@ SLIPS = [
     ("scan.end == end;", "scan.end - end;", "`==`"),
     ("scan.end == end;", "scan.end : == end;", "scan.end == end;"),
     ("float rate;", "float; rate", "float rate;"),
+    ("duration <= LEG_MAX;", "start + LEG_MAX =< end;", "write `<=`"),
+    ("duration <= LEG_MAX;", "start + LEG_MAX => end;", "write `>=`"),
+    ("[0.5 1.5]", "[0.5-1.5]", "[0.5 1.5]"),
+    ("LEG_MAX = 300;", "LEG_MAX = 3 00;", "LEG_MAX = 300;"),
 ]
 
 
@@ -118,3 +122,11 @@ def test_trials_are_counted_so_that_a_long_rule_ends(count: int) -> None:
     assert analysis.has_errors
     trials = sum(1 for _ in repair(analysis))
     assert trials < (300 if count == 1 else 1000)
+
+
+def test_a_token_without_the_name_by_which_lines_speak_of_it_is_named_where_it_is_asked_for() -> None:
+    text = MODEL.replace("Scan scan", "Scan ping").replace("scan.", "ping.").replace("Scan ping", "Scan")
+    (one,) = told(text)
+    assert one.help is not None and "`contains(Sonar.Scan ping);`" in one.help
+    (fix,) = one.fixes
+    assert "contains(Sonar.Scan ping);" in apply_edits(text, [*fix.edits])
