@@ -8,8 +8,8 @@ import numpy as np
 from compiler.program import PredicateCode
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
-from runtime.determined.reading import values
-from runtime.determined.tags import FAR, FOLLOWER, LEAST, MOST, ROW, SHOWN, SLOT, WISHED
+from runtime.determined.reading import Named, run_of, values
+from runtime.determined.tags import BLOCK, FAR, FOLLOWER, LEAST, MOST, ROW, SHOWN, SLOT, WISHED
 from runtime.determined.token_columns import WalkColumns
 from runtime.determined.token_walk import TokenWalk
 from runtime.executive.columns import (
@@ -45,6 +45,7 @@ class _Expansion:
         self.order = np.asarray(self.found.order)  # the row of each index
         self.all_keys = np.asarray(self.found.keys)[: self.found.count]
         self._slots: Array | None = None
+        self._where: dict[str, Named] = {}  # by predicate: its parameters
 
     @property
     def slots(self) -> Array:
@@ -141,26 +142,23 @@ class _Expansion:
         return ValueRange(least, latest), ValueRange(least - start, latest - start), "end", self.tick
 
     def _arguments(self, code: PredicateCode, first: int) -> tuple[Value, ...]:
-        where = tuple([(k, each.type.kind) for k, each in enumerate(code.parameters)])
+        where = self._where.get(code.name)
+        if where is None:
+            where = self._where[code.name] = tuple([(k, each.type.kind) for k, each in enumerate(code.parameters)])
         return values(self.machine.log.values_from(first, len(where)), where, self.program.name_of)
 
     def _runs(self, row: int) -> tuple[BodyRun, ...]:
+        program = self.program
         root, number = self._block_of(row)
-        readings = self.program.readings(self.rows[root, 3] & (WISHED - 1))
-        reading = readings[number]
-        if not reading.bodies:
+        logged = self.rows[root].tolist()
+        block = logged[BLOCK] & (WISHED - 1)
+        outlines = program.outlines[block][number]
+        if not outlines:
             return ()
-        shown = self.program.shown_indices[self.rows[root, 3] & (WISHED - 1)]
-        first = int(self.rows[root, SHOWN])
-        logged = self.machine.log.values_from(first, len(shown))
-        registers = {register: logged[index] for register, index in shown.items()}
-        base = int(self.walk.children[root])
-        children = {
-            (each.token.parent, each.token.rule, each.token.slot): int(self.walk.child_keys[base + each.number])
-            for each in readings
-        }
-        names = self.program.name_of
-        return tuple([body.run(registers, children, names) for body in reading.bodies])
+        width = program.shown_first[block + 1] - program.shown_first[block]
+        shown = self.machine.log.values_from(logged[SHOWN], width)
+        base = self.walk.children[root]
+        return tuple([run_of(each, shown, self.walk.child_keys, base, program.name_of) for each in outlines])
 
     def _block_of(self, row: int) -> tuple[int, int]:
         """The row that began a token's block, and the number of the token there."""

@@ -58,7 +58,6 @@ class RegisterProgram:
     tokens: BlockTokens = field(default_factory=BlockTokens)
     shown: "array[int]" = field(default_factory=lambda: array("q"))  # registers, block after block
     shown_first: "array[int]" = field(default_factory=lambda: array("q", [0, 0]))
-    shown_indices: list[dict[int, int]] = field(default_factory=lambda: [{}])
     outlines: list[tuple[tuple[RunOutline, ...], ...]] = field(default_factory=lambda: [()])  # by block, by token
     told: dict[tuple[str, str], dict[float, DomainConstant]] = field(default_factory=dict)  # by type: what others heard
     shapes: dict[str, list[ParameterShape]] = field(default_factory=dict)  # the parameters of a predicate
@@ -104,7 +103,6 @@ class RegisterProgram:
         indices = {register: index for index, register in enumerate(dict.fromkeys(registers))}
         self.shown.extend(indices)
         self.shown_first.append(len(self.shown))
-        self.shown_indices.append(indices)
         self.outlines.append(outlines_of(readings, indices))
         for token in made.tokens:
             self.tokens.how.append(_FOUND.get(token.how, IS_TOGETHER))

@@ -12,7 +12,6 @@ from runtime.executive.record import BodyRun, GuardRun, Value, ValueRange
 
 Named = tuple[tuple[int, str], ...]  # registers and kinds
 Names = Callable[[int], str]
-Registers = Sequence[float] | Mapping[int, float]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -33,16 +32,6 @@ class BodyReading:
                 if branch is not None:
                     yield from branch.registers()
 
-    def run(self, registers: Registers, keys: dict[tuple[int, int, int], int], names: Names) -> BodyRun:
-        """What the body did, as the registers tell; `keys` are those of the children."""
-        guards = tuple([each.run(registers, keys, names) for each in self.guards]) if self.guards else ()
-        return BodyRun(
-            self.rule,
-            values(registers, self.named, names) if self.named else (),
-            tuple([keys[child] for child in self.children]) if self.children else (),
-            guards,
-        )
-
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _GuardReading:
@@ -51,14 +40,6 @@ class _GuardReading:
     register: int
     then: BodyReading | None
     otherwise: BodyReading | None
-
-    def run(self, registers: Registers, keys: dict[tuple[int, int, int], int], names: Names) -> GuardRun:
-        """Which branch was taken, and what it did."""
-        is_true = registers[self.register] != 0.0
-        branch = self.then if is_true else self.otherwise
-        return GuardRun(
-            "then" if is_true else "else", True, None if branch is None else branch.run(registers, keys, names)
-        )
 
 
 def outlines_of(readings: tuple["TokenReading", ...], places: Mapping[int, int]) -> tuple[tuple[RunOutline, ...], ...]:
@@ -78,6 +59,22 @@ def _outline(body: BodyReading, places: Mapping[int, int], numbers: dict[tuple[i
         body.rule,
         tuple([(places[register], kind) for register, kind in body.named]),
         tuple([numbers[child] for child in body.children]),
+        tuple(guards),
+    )
+
+
+def run_of(outline: RunOutline, shown: Sequence[float], keys: Sequence[int], first: int, names: Names) -> BodyRun:
+    """What one run of a body did, by what it has `shown`; from `first` on are the keys of the tokens of its block."""
+    guards = []
+    for guard in outline.guards:
+        is_true = shown[guard.place] != 0.0
+        branch = guard.then if is_true else guard.otherwise
+        inner = None if branch is None else run_of(branch, shown, keys, first, names)
+        guards.append(GuardRun("then" if is_true else "else", True, inner))
+    return BodyRun(
+        outline.rule,
+        values(shown, outline.locals, names),
+        tuple([int(keys[first + number]) for number in outline.children]),
         tuple(guards),
     )
 
@@ -125,7 +122,7 @@ def _body(block: RegisterBlock, token: int, rule: int, body: tuple[Instruction, 
     return BodyReading(rule, tuple(named), tuple(children), tuple(guards))
 
 
-def values(registers: Registers, where: Named, names: Names) -> tuple[Value, ...]:
+def values(registers: Sequence[float], where: Named, names: Names) -> tuple[Value, ...]:
     """What registers say of variables; NaN leaves one open."""
     found: list[Value] = []
     for register, kind in where:
