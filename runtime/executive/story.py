@@ -32,11 +32,12 @@ from runtime.plan.readout.statements import Argument, ResourceTerm, Term
 from runtime.plan.readout.terms import TermReader
 from runtime.plan.script.natives import FILLED
 from runtime.plan.tags import NONE, ROLE_INTERNAL, ROLE_LOCAL, ROLE_TOKEN
-from runtime.solver.learning.attempts import CauseOrigin, FailedFlaw, FoundCause
+from runtime.solver.learning.attempts import Attempt, CauseOrigin, FailedFlaw, FoundCause
 from runtime.solver.learning.failure_log import FailureLog
 from runtime.solver.search import Solver
 from runtime.user.written import Written
 
+_DEEPEST_TOLD, _MOST_ENDS = 40, 20  # levels of a search in vain, and what ended deeper ones
 _KINDS = {KIND_INT: "int", KIND_FLOAT: "float", KIND_BOOL: "bool", KIND_OBJECT: "object", KIND_STRING: "string"}
 _ORIGINS = {
     SPAN_OBSERVATION: ElementKind.OBSERVATION,
@@ -270,14 +271,15 @@ class SearchLog:
         failed = self.log.rejections.get(self.reader.token(t))
         return None if failed is None else self._deadlock(failed)
 
-    def _deadlock(self, failed: FailedFlaw) -> Deadlock:
+    def _deadlock(self, failed: FailedFlaw, depth: int = 0) -> Deadlock:
+        """What was tried in vain, level by level; of what lies deeper only the choices at which it ended."""
         tried = [
             FailedChoice(
                 attempt.resolver,
                 self._conflict((*attempt.causes, *attempt.told)),
-                None if attempt.dead_end is None else self._deadlock(attempt.dead_end),
+                None if attempt.dead_end is None else self._deadlock(attempt.dead_end, depth + 1),
             )
-            for attempt in failed.attempts
+            for attempt in (failed.attempts if depth < _DEEPEST_TOLD else _ends_of(failed))
         ]
         return Deadlock(failed.flaw, tried=tuple(tried))
 
@@ -290,6 +292,19 @@ class SearchLog:
         token = self.reader.tokens.get(found.owner)
         place = self.reader.place_beyond(found.term, found.number, kind, token) or place
         return _element(kind, place, token, found.term, ())
+
+
+def _ends_of(failed: FailedFlaw) -> list[Attempt]:
+    """The first choices, whatever led to them, that were refuted at once."""
+    found: list[Attempt] = []
+    left = [failed]
+    while left and len(found) < _MOST_ENDS:
+        for attempt in left.pop().attempts:
+            if attempt.dead_end is None:
+                found.append(attempt)
+            else:
+                left.append(attempt.dead_end)
+    return found[:_MOST_ENDS]
 
 
 def _element(

@@ -1,6 +1,7 @@
 """Conflicts and failed searches leave the engine as typed data, with the places of the model that they come from."""
 
 import json
+import pickle
 from collections.abc import Iterator
 
 from runtime.executive.outcome import ConflictElement, Deadlock, Event, EventKind, Phase
@@ -10,6 +11,7 @@ from runtime.executive.workbench import Workbench
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.names import TokenName, VariableName
 from runtime.solver.configuration.configuration import default_configuration
+from runtime.solver.learning.attempts import Attempt, FailedFlaw, Flaw, Resolver, ResolverKind
 from runtime.solver.search import Solver
 from tests.executive.flying import program
 
@@ -77,3 +79,21 @@ def found_in(deadlock: Deadlock) -> Iterator[ConflictElement]:
             yield from one.conflict.elements
         if one.leads_to is not None:
             yield from found_in(one.leads_to)
+
+
+def test_a_search_that_failed_deep_down_is_told_as_far_as_it_can_be_handed_on() -> None:
+    """A result goes from a worker to its parent by pickle, which calls itself for each level."""
+    failed = FailedFlaw(Flaw(1, "the last"), (Attempt(Resolver(ResolverKind.SPECIFY, ("7",)), ()),))
+    for level in range(5_000):
+        failed = FailedFlaw(Flaw(1, f"level {level}"), (Attempt(Resolver(ResolverKind.ACTIVATE), (), failed),))
+    plan = bench("Lamp lamp = new Lamp(Internal); close();")
+    log = SearchLog(plan, Solver(plan.database, default_configuration(), 0, 1, False))
+    log.log.end = failed
+    told = log.deadlock()
+    assert told is not None
+    assert pickle.loads(pickle.dumps(told)) == told
+    depth = 0
+    while told.tried and told.tried[0].leads_to is not None:
+        told, depth = told.tried[0].leads_to, depth + 1
+    assert depth == 40
+    assert [one.choice for one in told.tried] == [Resolver(ResolverKind.SPECIFY, ("7",))]
