@@ -26,7 +26,7 @@ from runtime.executive.outcome import (
     ReasonKind,
 )
 
-_ANSWERS = (EventKind.REFUSE, EventKind.REJECT)
+ANSWERS = (EventKind.REFUSE, EventKind.REJECT)  # that what was asked for is not done
 _MISSED = "F6"  # what its owner had refused or rejected
 _MOST_EVENTS = 8  # of the way to the abort, the last ones
 
@@ -116,9 +116,9 @@ def refusals(outcome: Outcome) -> tuple[Event, ...]:
         ends = list(events[abort.event].causes)
     else:
         ends = []
-    answers = [index for index in ends if events[index].kind in _ANSWERS]
+    answers = [index for index in ends if events[index].kind in ANSWERS]
     senders = {event.request: event.reactor for event in events if event.kind is EventKind.REQUEST}
-    refused = [(index, event) for index, event in numbered(events) if event.kind in _ANSWERS]
+    refused = [(index, event) for index, event in numbered(events) if event.kind in ANSWERS]
     found: dict[int, None] = dict.fromkeys(answers)
     for index in found.copy():
         _note_behind(index, outcome, senders, refused, found)

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from checker.batch.result import MissionResult
-from checker.causes import timed_requests
+from checker.causes import ANSWERS, timed_requests
 from checker.limits import Limit
 from checker.oracle import Judgement
 from checker.single_values import single_value
@@ -32,7 +32,7 @@ def sent_requests(outcome: Outcome, conflict: Conflict | None, until: int) -> It
 
 def lost_events(outcome: Outcome, limit: Limit) -> list[Event]:
     """The events in which a mission lost more than it may, the first ones."""
-    wanted = (EventKind.RELAX,) if limit is Limit.REPAIRS else (EventKind.REFUSE, EventKind.REJECT)
+    wanted = (EventKind.RELAX,) if limit is Limit.REPAIRS else ANSWERS
     is_about_goals = limit in (Limit.REJECTED, Limit.LATE)
     found = [event for event in single_events(outcome.events) if event.kind in wanted]
     if limit is not Limit.REPAIRS:

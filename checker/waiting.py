@@ -6,15 +6,15 @@ that reactor and in those behind it.
 
 from dataclasses import dataclass
 
+from checker.causes import ANSWERS
 from checker.oracle import given_up
 from runtime.executive.configuration import AgentConfiguration, CodeConfiguration, ReactorConfiguration
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import Event, EventKind, Outcome
 
 _MOST = 8  # steps that are told
-_MOST_ANSWERS = 2
-_ANSWERS = (EventKind.REFUSE, EventKind.REJECT)
-_OVER = (EventKind.ACHIEVED, EventKind.RECALL, EventKind.REFUSE, EventKind.REJECT)
+_MOSTANSWERS = 2
+_OVER = (EventKind.ACHIEVED, EventKind.RECALL, *ANSWERS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ def kept_open_by(outcome: Outcome, agent: AgentConfiguration) -> list[Event]:
     for event in single_events(outcome.events):
         if event.kind is EventKind.REQUEST:
             senders[event.request] = event.reactor
-        if event.kind in (EventKind.REQUEST, *_ANSWERS):
+        if event.kind in (EventKind.REQUEST, *ANSWERS):
             last[senders.get(event.request, ""), event.timeline, event.predicate] = event
-    answers = [event for (sender, *_), event in last.items() if sender in owners and event.kind in _ANSWERS]
-    return sorted(answers, key=lambda one: one.tick)[:_MOST_ANSWERS]
+    answers = [event for (sender, *_), event in last.items() if sender in owners and event.kind in ANSWERS]
+    return sorted(answers, key=lambda one: one.tick)[:_MOSTANSWERS]

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 
-from checker.causes import Failed, dead_ends, failed_by, in_common, refusals
+from checker.causes import ANSWERS, Failed, dead_ends, failed_by, in_common, refusals
 from checker.counterfactual.deadlocks import lines_at_odds
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.promises import first_violated, forbids_values, promised_levels
@@ -45,7 +45,7 @@ _LEVEL = 0.5  # of what changes the level of a resource that rules something out
 _OUTSIDE = 3.0  # added where other lines contradict each other, whatever happens
 _TROUBLES = (EventKind.RELAX, EventKind.REJECT, EventKind.REFUSE, EventKind.KILL)
 _TELLING, _MOST_TOLD = 3.0, 0.6  # what a conflict tells of its lines together, and of one
-_ANSWERS, _TIME = (EventKind.REJECT, EventKind.REFUSE), "start"
+_TIME = "start"
 _MOMENTS = ("start", "end")
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _UNSEEN = 4.0  # added for lines of a rule that nothing fired
@@ -102,11 +102,14 @@ def candidates_of(
     """
     roots: dict[int, tuple[float, Suspicion]] = {}
 
+    def put(number: int, far: float, source: Suspicion) -> None:
+        if number not in roots or far < roots[number][0]:
+            roots[number] = (far, source)
+
     def note(place: SourcePlace | None, far: float, source: Suspicion) -> None:
         if place is not None:
             for number in graph.at(str(real_path(root / place.file)), place.line):
-                if number not in roots or far < roots[number][0]:
-                    roots[number] = (far, source)
+                put(number, far, source)
 
     failed = failed_by(outcome)
     culprit = culprit_of(failed.conflict)
@@ -122,20 +125,15 @@ def candidates_of(
     seen_at = dict.fromkeys(sorted(observed), _OBSERVED) | dict.fromkeys(sorted(waited_for), _AWAITED_END)
     for (token, variable), least in seen_at.items():
         for number, steps in graph.behind(token, variable):
-            far = least + _STEP * steps
-            if number not in roots or roots[number][0] > far:
-                roots[number] = (far, Suspicion.CONFLICT)
+            put(number, least + _STEP * steps, Suspicion.CONFLICT)
     for token in sorted({token for token, _ in observed}):  # that it came at all, its owner decided
         for number, steps in graph.choosing(token):
-            far = _OBSERVED + _STEP * steps
-            if number not in roots or roots[number][0] > far:
-                roots[number] = (far, Suspicion.CONFLICT)
+            put(number, _OBSERVED + _STEP * steps, Suspicion.CONFLICT)
     for predicate, name in sorted(read_in_python(outcome, observed, coded)):
         for number in graph.of_predicate(predicate, name):
-            if number not in roots or roots[number][0] > _READ:
-                roots[number] = (_READ, Suspicion.TRACE)
+            put(number, _READ, Suspicion.TRACE)
     asked = _asked(failed.conflict) | _asked(first.conflict if first is not None else None)
-    answers = [*refusals(outcome), *((first,) if first is not None and first.kind in _ANSWERS else ())]
+    answers = [*refusals(outcome), *((first,) if first is not None and first.kind in ANSWERS else ())]
     asked |= {(event.predicate, _TIME) for event in answers}
     for token, variable in sorted(asked):
         asking = dict.fromkeys(graph.asking(token, variable), _OBSERVED)
@@ -143,28 +141,22 @@ def candidates_of(
             rules = sorted({graph.sites[number].rule for number in asking})
             asking |= {one: _OBSERVED + _STEP for rule in rules for one in graph.setting(rule, variable)} | asking
         for number, far in asking.items():
-            if number not in roots or roots[number][0] > far:
-                roots[number] = (far, Suspicion.CONFLICT)
+            put(number, far, Suspicion.CONFLICT)
     for token, variable in sorted(observed):  # when a token came, who asked for it has said
         for number in graph.asking(token, variable) if variable in _MOMENTS else ():
-            if number not in roots or roots[number][0] > _OBSERVED + _STEP:
-                roots[number] = (_OBSERVED + _STEP, Suspicion.CONFLICT)
+            put(number, _OBSERVED + _STEP, Suspicion.CONFLICT)
     ways = [way for one in (failed, first) if one is not None for way in dead_ends(one.deadlock)]
     for *before, last in ways:  # a resource that is used too much, whatever else is chosen
         trying = {one.flaw.predicate for one in before if one.flaw is not None}
         used = last.flaw.name if last.flaw is not None and last.flaw.kind == RESOURCE_THREAT else ""
         for number in graph.of_level(used) if used else ():
-            far = _CONFLICT if graph.sites[number].rule in trying else _LEVEL
-            if number not in roots or roots[number][0] > far:
-                roots[number] = (far, Suspicion.CONFLICT)
+            put(number, _CONFLICT if graph.sites[number].rule in trying else _LEVEL, Suspicion.CONFLICT)
     for predicate in sorted(_tokens_in(outcome, failed, first)):
         for number in graph.of_resource(predicate):
-            if number not in roots or roots[number][0] > _LEVEL:
-                roots[number] = (_LEVEL, Suspicion.CONFLICT)
+            put(number, _LEVEL, Suspicion.CONFLICT)
     for resource in promised_levels(outcome, properties):
         for number in graph.of_level(resource):
-            if number not in roots or roots[number][0] > _LEVEL:
-                roots[number] = (_LEVEL, Suspicion.TRACE)
+            put(number, _LEVEL, Suspicion.TRACE)
     held = {predicate for *_, predicate in heads_of(outcome.events)}
     predicates = _ended_by(outcome, held) | _violated(outcome, properties)
     if not roots and not predicates:
@@ -183,20 +175,16 @@ def candidates_of(
         (_UNSAID, {number for predicate in spoken for number in graph.of_predicate(predicate)}),
     ):
         for number in sorted(numbers):
-            if number not in roots or roots[number][0] > far:
-                roots[number] = (far, Suspicion.TRACE)
+            put(number, far, Suspicion.TRACE)
     for predicate, share in time_spent(outcome).items():
         for number in graph.lasting(predicate):
-            if number not in roots or roots[number][0] > -math.log(share):
-                roots[number] = (-math.log(share), Suspicion.TRACE)
+            put(number, -math.log(share), Suspicion.TRACE)
     for span in exercised:
         for number in graph.within(span):
-            if number not in roots or roots[number][0] > _COVERED:
-                roots[number] = (_COVERED, Suspicion.COVERAGE)
+            put(number, _COVERED, Suspicion.COVERAGE)
     for number, (far, source) in list(roots.items()):
         for condition in graph.conditions(number) if far <= _CONFLICT else ():
-            if condition not in roots or roots[condition][0] > far + _UNDER:
-                roots[condition] = (far + _UNDER, source)
+            put(condition, far + _UNDER, source)
     given = {number: far for number, (far, _) in roots.items()}
     distances, reached = graph.distances(given), graph.distances(given, _PASSED)
     seen = held | _named_predicates(outcome)

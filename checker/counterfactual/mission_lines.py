@@ -13,7 +13,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from checker.causes import failed_by, timed_requests
+from checker.causes import ANSWERS, failed_by, timed_requests
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.goals_behind import far_of, leading_goals, levelled_goals, promised_goals, under_way
 from checker.counterfactual.promises import first_violated
@@ -33,7 +33,6 @@ _SPOKEN, _DEAF, _BROKEN, _BEGUN, _LOST, _ABORTED, _ASKED, _OTHERS = 0.0, 0.0, 0.
 _OWNER, _OTHER_OWNER = 0.5, 1.5  # of what a reactor in Python is given that owns what was given up
 _MOST_ASKERS = 4  # goals behind a request, the most urgent first
 _AMONG = 0.1  # of a number that lies among those of the other goals
-_GIVEN_UP = (EventKind.REJECT, EventKind.REFUSE)
 
 
 def mission_lines(
@@ -48,7 +47,7 @@ def mission_lines(
     `supplying` are the predicates whose rules fill the resource that the conflict finds too empty, or empty it. Times
     of a goal that lint says can never be achieved, by its `findings`, are tried before all else.
     """
-    given_up = {(one.timeline, one.predicate) for one in single_events(outcome.events) if one.kind in _GIVEN_UP}
+    given_up = {(one.timeline, one.predicate) for one in single_events(outcome.events) if one.kind in ANSWERS}
     given_up |= {(one.timeline, one.predicate) for one in outcome.open_goals if one.conflict is not None}
     ended = outcome.abort.reactor if outcome.abort is not None else ""
     used = {line for one in mission.agent.reactors for line in one.external}
