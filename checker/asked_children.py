@@ -4,7 +4,7 @@ What the rule says of its children, by the arguments of its own tokens: equaliti
 take. What cannot be worked out so excludes nothing.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from checker.single_values import single_value
 from compiler.instructions import branched_instructions
@@ -17,23 +17,18 @@ _Known = dict[Operand, _Value]
 
 def children_asked_for(
     rule: RuleCode,
-    predicate: str,
+    slots: Collection[int],
     names: tuple[Sequence[str], Sequence[str]],
     request: Event,
     tokens: Iterable[Event],
     numbers: Mapping[Operand, float | str],
 ) -> tuple[frozenset[int], Event | None]:
-    """The slots of the rule's children of a predicate that have the arguments of a request, by one token of the rule.
+    """The slots, of some children of one predicate, that have the arguments of a request, by one token of the rule.
 
     `names` are the parameters of the rule's predicate and of the child's, `tokens` tell of the rule's tokens with their
     arguments: of those that were there by then the last one counts for which a child fits. All slots, where none fits.
     """
     own, theirs = names
-    slots = {
-        step.slot
-        for step, _ in branched_instructions(rule.body)
-        if isinstance(step, Child) and step.predicate == predicate
-    }
     for token in reversed([one for one in tokens if one.tick <= request.tick]):
         known = {**numbers, **_arguments(0, own, token)}
         fitting = {slot for slot in slots if _fits(rule, slot, {**known, **_arguments(slot, theirs, request)})}

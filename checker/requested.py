@@ -281,8 +281,8 @@ def _asking(
     if request is not None and children:
         tokens = [one for one in single_events(events) if _tells_of(one, rule)]
         parameters = _names(program, rule.predicate), _names(program, predicate)
-        fitting, token = children_asked_for(rule, predicate, parameters, request, tokens, numbers)
-        children &= fitting
+        fitting, token = children_asked_for(rule, children, parameters, request, tokens, numbers)
+        children = set(fitting)
     reached: set[Operand] = {TokenVariable(slot, at) for slot in children} if at >= 0 else set()
     posts: list[Post] = []
     grows = bool(reached)

@@ -55,7 +55,7 @@ def test_the_child_is_found_by_values_and_branches(n: int, split: bool, asked: d
     found: dict[int, set[str | None]] = {}
     for request in outcome.events:
         if request.kind is EventKind.REQUEST and request.predicate == "On":
-            slots, token = children_asked_for(rule, "Dev.On", names, request, tokens, numbers)
+            slots, token = children_asked_for(rule, labels, names, request, tokens, numbers)
             assert token is not None
             value = single_value(dict(request.arguments)["n"])
             assert isinstance(value, (int, float))
@@ -69,6 +69,7 @@ def test_where_no_child_fits_all_count() -> None:
     goal = GoalConfiguration("dev", "On", start=(3, 9), parameters=(("n", 7), ("m", 1)))
     world = simulator("sim", f"{DEV} Dev::On {{ duration == 5; }} Dev dev = new Dev(Internal); close();", "dev")
     (request,) = [one for one in fly(world, until=9, goals=(goal,)).events if one.kind is EventKind.REQUEST]
-    slots, token = children_asked_for(rule, "Dev.On", (("n", "split"), ("n", "m")), request, (), {})
+    children = [one.slot for one in all_instructions(rule.body) if isinstance(one, Child)]
+    slots, token = children_asked_for(rule, children, (("n", "split"), ("n", "m")), request, (), {})
     assert len(slots) == 3
     assert token is None
