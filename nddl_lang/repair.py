@@ -173,6 +173,7 @@ class _Trials:
         unknown = (each.span.text for each in errors if each.code.kind == "name")
         missing = [name for name in dict.fromkeys(unknown) if _NAME.fullmatch(name)]
         found: list[tuple[int, int, Diagnostic, TokenEdit]] = []
+        named: set[tuple[Source, int]] = set()
         for number, ((source, line), error) in enumerate(list(lines.items())[:_MOST_LINES]):
             parse = self._parses.get(source)
             place = self._piece_at(error.span)
@@ -185,11 +186,14 @@ class _Trials:
             if not row.kinds:
                 continue
             grammar = LineGrammar(piece.kinds, first, row)
-            words = vocabulary(self._known, missing, _whole(piece))
+            whole = _whole(piece)
+            words = vocabulary(self._known, missing, whole)
             for edit in token_edits(row, (error.span.begin, error.span.finish), words):
                 if piece.mends or grammar.may_fit(edit):
                     found.append((edit.cost, number, error, edit))
-            found += [(edit.cost, number, error, edit) for edit in naming_edits(_whole(piece), words.missing)]
+            if (source, place) not in named:
+                named.add((source, place))
+                found += [(edit.cost, number, error, edit) for edit in naming_edits(whole, words.missing)]
         found.sort(key=lambda each: each[:2])
         for _, _, error, edit in found:
             yield error, edit

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from functools import partial
-from math import ceil, floor, isfinite
 
 from nddl_lang.lint.codes import (
     ARROW,
@@ -16,7 +15,8 @@ from nddl_lang.lint.codes import (
 )
 from nddl_lang.lint.part import Facts, Finding, Part
 from nddl_lang.lint.reading import declared
-from nddl_lang.semantics.literals import number
+from nddl_lang.lint.sampling import draws_of
+from nddl_lang.semantics.literals import is_fraction, number, whole_beside
 from nddl_lang.semantics.schema import GlobalReference, Interval, Kind, LocalReference, Values, Variable
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import (
@@ -142,9 +142,7 @@ def lint_int_results(part: Part) -> Iterator[Finding]:
                 continue
             name, text = path.span.text, other.span.text
             if (written := number(other)) is not None:
-                if _is_fraction(written):
-                    whole = (str(floor(written)), str(ceil(written)))
-                    fixes = tuple(Fix(f"write `{each}`", (Edit(other.span, each),), safe=False) for each in whole)
+                if fixes := whole_beside(written, other.span):
                     yield NEVER_WHOLE.at(span, fixes=fixes, name=name, value=text)
                 continue
             reference = part.reference(other) if isinstance(other, PathExpr) else None
@@ -160,14 +158,10 @@ def lint_int_results(part: Part) -> Iterator[Finding]:
                 yield result
 
 
-def _is_fraction(value: object) -> bool:
-    return isinstance(value, float) and isfinite(value) and not value.is_integer()
-
-
 def _never_whole(span: Span, name: str, constant: Variable, facts: Facts) -> Diagnostic | None:
     """The finding where a constant is no whole number."""
     match facts.assigned.get((constant, "")) or declared(constant):
-        case Values(items=(value,)) if _is_fraction(value):
+        case Values(items=(value,)) if is_fraction(value):
             notes = (Note(f"`{constant.name}` is declared here", constant.span),)
             return NEVER_WHOLE.at(
                 span, notes=notes, help=_ROUND, name=name, value=f"{value}, which `{constant.name}` is"
@@ -178,27 +172,19 @@ def _never_whole(span: Span, name: str, constant: Variable, facts: Facts) -> Dia
 def _seldom_whole(result: Diagnostic, parameter: Variable, facts: Facts) -> Diagnostic | None:
     """`result` where the range ends with a fraction: of another one a mission may draw whole numbers."""
     match facts.assigned.get((parameter, "")) or declared(parameter):
-        case Interval(lower=lower, upper=upper) if lower != upper and (_is_fraction(lower) or _is_fraction(upper)):
+        case Interval(lower=lower, upper=upper) if lower != upper and (is_fraction(lower) or is_fraction(upper)):
             return result
     return None
 
 
 def _drawn_locals(part: Part) -> dict[Variable, Variable]:
     """The local floats that are the value of a sampled parameter, with that."""
-    drawn: dict[Variable, Variable] = {}
-    sampled = part.tables.sampled
-    for left, right, _ in _equalities(part) if sampled else ():
-        for path, other in ((left, right), (right, left)):
-            reference = part.reference(path) if isinstance(path, PathExpr) else None
-            parameter = sampled.get(other) if isinstance(other, CallExpr) else None
-            if isinstance(reference, LocalReference) and isinstance(parameter, GlobalReference):
-                drawn[reference.variable] = parameter.variable
-    for call in part.all(CallConstraint) if sampled else ():
-        parameter = sampled.get(call)
-        reference = part.reference(call.arguments[0]) if parameter and isinstance(call.arguments[0], PathExpr) else None
-        if isinstance(reference, LocalReference) and isinstance(parameter, GlobalReference):
-            drawn[reference.variable] = parameter.variable
-    return drawn
+    return {
+        draw.receiver[0]: draw.parameter.variable
+        for draw in draws_of(part)
+        if draw.receiver is not None and isinstance(draw.receiver[0], Variable)
+        if isinstance(draw.parameter, GlobalReference)
+    }
 
 
 def _equalities(part: Part) -> Iterator[tuple[Expr, Expr, Span]]:

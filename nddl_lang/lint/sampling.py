@@ -35,7 +35,7 @@ class _DrawSite:
     domain: Domain | None
 
 
-def _draws(part: Part) -> Iterator[_DrawSite]:
+def draws_of(part: Part) -> Iterator[_DrawSite]:
     """The draws of a statement."""
     tables = part.tables
     if not tables.sampled:
@@ -66,7 +66,7 @@ def lint_draws(part: Part) -> Iterator[Finding]:
         reference = part.reference(path)
         if isinstance(reference, LocalReference):
             mentions[reference.variable] = mentions.get(reference.variable, 0) + 1
-    for draw in _draws(part):
+    for draw in draws_of(part):
         if draw.receiver is not None and isinstance(part.node, RuleDecl):
             receiver = draw.receiver[0]
             if isinstance(receiver, Variable) and receiver in used_variables(part) and mentions.get(receiver) == 1:
@@ -124,7 +124,7 @@ def compare_draws(parts: list[Part]) -> Iterator[Diagnostic]:
     """A parameter without a range of its own that is drawn into variables with different ranges."""
     first: dict[object, _DrawSite] = {}
     for part in parts:
-        for draw in _draws(part) if part.tables.sampled else ():
+        for draw in draws_of(part) if part.tables.sampled else ():
             if isinstance(draw.parameter, GlobalReference) and declared(draw.parameter.variable) is not None:
                 continue
             if draw.domain is None:

@@ -1,9 +1,12 @@
 """Read the numbers that an expression writes out."""
 
 from collections.abc import Callable
+from math import ceil, floor, isfinite
 
 from nddl_lang.semantics.schema import INFINITY
 from nddl_lang.syntax.nodes import BinaryExpr, Expr, FloatLiteral, IntLiteral, PathExpr, UnaryExpr
+from nddl_lang.text.diagnostic import Edit, Fix
+from nddl_lang.text.source import Span
 
 ValueOf = Callable[[PathExpr], float | int | None]
 
@@ -56,3 +59,16 @@ def is_infinite(expression: Expr) -> bool:
     """Whether the expression writes an infinity, which fits ints and floats alike."""
     value = number(expression)
     return value is not None and abs(value) >= INFINITY
+
+
+def is_fraction(value: object) -> bool:
+    """Whether a value is a number, and not a whole one."""
+    return isinstance(value, float) and isfinite(value) and not value.is_integer()
+
+
+def whole_beside(value: float | int | None, span: Span) -> tuple[Fix, ...]:
+    """The fixes that write the whole number below or above a fraction at `span`; none for a whole number."""
+    if value is None or not is_fraction(value):
+        return ()
+    near = (str(floor(value)), str(ceil(value)))
+    return tuple(Fix(f"write `{each}`", (Edit(span, each),), safe=False) for each in near)

@@ -1,11 +1,9 @@
 """Check that a value fits the variable that it is given to, and read the values that a text fixes."""
 
-from math import ceil, floor, isfinite
-
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.codes import DOES_NOT_FIT, OUTSIDE_TYPE
 from nddl_lang.semantics.expressions import type_of
-from nddl_lang.semantics.literals import is_infinite, number
+from nddl_lang.semantics.literals import is_infinite, number, whole_beside
 from nddl_lang.semantics.schema import (
     Domain,
     EnumValue,
@@ -152,11 +150,12 @@ def _complain_misfit(context: Context, expression: Expr, found: Type, target: Ty
         if type_ is not None and not _fits(context, candidate, type_, target):
             part, part_type = candidate, type_
             break
+    help_, fixes = _mend(part, target, name)
     context.complain(
         DOES_NOT_FIT.at(
             part.span,
-            help=_help(part, target, name),
-            fixes=_mend(part, target),
+            help=help_,
+            fixes=fixes,
             text=part.span.text,
             found=phrase(part_type),
             name=name,
@@ -165,23 +164,11 @@ def _complain_misfit(context: Context, expression: Expr, found: Type, target: Ty
     )
 
 
-def _fraction(value: Expr, target: Type) -> float | None:
-    """The number that is written out where a whole one is wanted; None where it is whole, or anything else."""
-    written = number(value) if target.kind is Kind.INT else None
-    return written if isinstance(written, float) and isfinite(written) and not written.is_integer() else None
-
-
-def _help(value: Expr, target: Type, name: str) -> str | None:
-    if _fraction(value, target) is None:
-        return None
-    return f"write a whole number, or declare `{name}` as a `float`"
-
-
-def _mend(value: Expr, target: Type) -> tuple[Fix, ...]:
+def _mend(value: Expr, target: Type, name: str) -> tuple[str | None, tuple[Fix, ...]]:
+    """What helps where a value does not fit, in words and as fixes."""
+    if target.kind is Kind.INT and (fixes := whole_beside(number(value), value.span)):
+        return f"write a whole number, or declare `{name}` as a `float`", fixes
     text: str | None = None
-    if (fraction := _fraction(value, target)) is not None:
-        near = (str(floor(fraction)), str(ceil(fraction)))
-        return tuple(Fix(f"write `{whole}`", (Edit(value.span, whole),), safe=False) for whole in near)
     match value:
         case FloatLiteral(value=real) if target.kind is Kind.INT and real.is_integer():
             text = str(int(real))
@@ -191,4 +178,4 @@ def _mend(value: Expr, target: Type) -> tuple[Fix, ...]:
             text = str(int(truth))
         case StringLiteral(value=characters) if target.kind is Kind.ENUM and characters.isidentifier():
             text = characters
-    return () if text is None else (Fix(f"write `{text}`", (Edit(value.span, text),)),)
+    return None, () if text is None else (Fix(f"write `{text}`", (Edit(value.span, text),)),)

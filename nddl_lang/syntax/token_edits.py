@@ -26,6 +26,7 @@ _WORDS = frozenset(("IDENT", "BASETYPE", "RELATION", "GOAL", "BOOL", "this")) | 
 _NUMBERS = frozenset(("INT", "FLOAT"))
 _VALUES = _NUMBERS | {"STRING"}
 _STOPS = frozenset((";", "{", "}", ")", ","))
+_UNNAMED = ["RELATION", "(", "IDENT", ".", "IDENT", ")"]
 _COMPARING = frozenset((*_OPERATORS, *_STRICT, "="))
 _ENDS = frozenset((")", "]", "}", "IDENT", "this")) | _VALUES
 _NAME = re.compile(r"[A-Za-z_$][A-Za-z0-9_$]*")
@@ -141,17 +142,10 @@ def token_edits(line: Lexemes, focus: tuple[int, int], words: Vocabulary) -> lis
 def naming_edits(statement: Lexemes, missing: Sequence[str]) -> Iterator[TokenEdit]:
     """A name that nothing declares, for each token that is asked for without one: `contains(Pump.Run)`."""
     kinds = statement.kinds
-    for at in range(3, len(kinds) - 1):
-        is_path = kinds[at - 2 : at + 1] == ["IDENT", ".", "IDENT"] or kinds[at - 2 : at + 1] == [
-            "object",
-            ".",
-            "IDENT",
-        ]
-        asks = at >= 4 and kinds[at - 3] == "(" and kinds[at - 4] == "RELATION"
-        if is_path and asks and kinds[at + 1] == ")":
-            for name in missing:
-                end = statement.ends[at]
-                yield TokenEdit(_MISSING_NAME * 100, ((end, end, f" {name}"),))
+    for at in range(4, len(kinds) - 1):
+        if kinds[at - 4 : at + 2] == _UNNAMED:
+            end = statement.ends[at]
+            yield from (TokenEdit(_MISSING_NAME * 100, ((end, end, f" {name}"),)) for name in missing)
 
 
 def _is_prose(line: Lexemes) -> bool:
@@ -298,7 +292,7 @@ def _sign_edits(line: Lexemes, at: int) -> Iterator[_Priced]:
 
 def _spaced(text: str, start: int, end: int, sign: str) -> str:
     """An operator in place of a stretch of `text`, with a blank on either side."""
-    return f"{' ' * (not text[:start].endswith(' '))}{sign}{' ' * (text[end : end + 1] != ' ')}"
+    return f"{' ' * (text[start - 1 : start] != ' ')}{sign}{' ' * (text[end : end + 1] != ' ')}"
 
 
 def _enclosing_edits(line: Lexemes, at: int) -> Iterator[_Priced]:

@@ -30,9 +30,8 @@ def turn_signs(b: Builder, first: int, index: int, *, is_quiet: bool) -> bool:
             b.report(SUPERFLUOUS, b.at(index), text=b.texts[index], help="write `==`", fixes=(fix,))
         kinds[index] = b.texts[index] = "=="
         return True
-    if kinds[index : index + 2] in (["!", "="], [":", "="]):
-        index += 1
-    if (kinds[index - 1], kinds[index]) not in _TURNED and (kinds[index], *kinds[index + 1 : index + 2]) in _TURNED:
+    ahead = tuple(kinds[index : index + 2])
+    if ahead == ("!", "=") or (ahead in _TURNED and (kinds[index - 1], kinds[index]) not in _TURNED):
         index += 1  # the first of the two does not fit already: `a + b =< c`
     pair = kinds[index - 1], kinds[index]
     if index <= first or (pair not in _TURNED and pair not in _PARTED):
