@@ -10,7 +10,7 @@ from checker.judge.bench import Bench
 from checker.judge.columns import TEXT, Array, Column, distinct
 from checker.judge.tables import Tables
 from compiler.program import END, OBJECT, START, PredicateCode
-from runtime.executive.columns import PublishedColumns, StoredValues, table_of
+from runtime.executive.columns import PublishedColumns, StoredValues
 from runtime.executive.event_parts import EventColumns
 from runtime.executive.outcome import Event
 from runtime.executive.record import TokenRecord, Value
@@ -63,10 +63,12 @@ def count_held(
             told.add(event.tick)
             count += 1
     for _, each in published.columns:
-        rows = np.flatnonzero(each.ticks <= last_tick)
-        arguments = each.arguments._replace(first=each.arguments.first.take(rows))
+        ticks, arguments = each.ticks.tolist(), each.arguments
+        if ticks and max(ticks) > last_tick:
+            rows = np.flatnonzero(each.ticks <= last_tick)
+            ticks, arguments = each.ticks.take(rows).tolist(), arguments._replace(first=arguments.first.take(rows))
         fitting: set[str] = set()  # predicates that have the parameters that were published
-        for tick, given in zip(each.ticks.take(rows).tolist(), _listed(arguments, each.symbols), strict=True):
+        for tick, given in zip(ticks, _listed(arguments, each.symbols), strict=True):
             held = begun.get(tick)
             if held is None or held.arguments != given:
                 return -1
@@ -76,13 +78,14 @@ def count_held(
                     return -1
                 fitting.add(held.predicate)
             told.add(tick)
-        count += len(rows)
+        count += len(ticks)
     return count if count == len(told) == len(begun) else -1
 
 
 def _listed(arguments: StoredValues, symbols: Sequence[str]) -> list[tuple[Value, ...]]:
     """Arguments row by row; what was left open is not a number, and equals nothing."""
-    table = table_of(arguments.store, arguments.first, range(len(arguments.kinds))).T.tolist()
+    store, width = arguments.store, len(arguments.kinds)
+    table = [store[first : first + width].tolist() for first in arguments.first.tolist()]
     names = [k for k, kind in enumerate(arguments.kinds) if kind not in _NUMBERS]
     for row in table:
         for k in names:
