@@ -131,6 +131,7 @@ class Bench:
             self.members[thing.name] = (thing.class_name, thing.members)
         self.tokens = _Toks(record.tokens)
         self.uses: list[RuleUse] = []
+        self.leaves_variables = False  # whether a solver's table may leave variables undecided
         self.last_repair = -1  # the tick of the last one
         self.infers = False  # whether runs that are not on record are found out
         self.runs: dict[int, list[BodyRun]] = {}  # those that were

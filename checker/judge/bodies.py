@@ -65,6 +65,7 @@ def compile_body(
                 undefined.add(slot)
             case NewVariable(name=str(name), slot=slot):
                 names.locals[slot] = name
+                names.types[slot] = instruction.type
                 steps.append(make.variable(instruction, names))
             case Post():
                 steps += _post(instruction, names, written, make, undefined)

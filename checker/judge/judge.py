@@ -67,6 +67,7 @@ def judge_mission(
         tables = Tables(written.tokens) if isinstance(written.tokens, TokenColumns) else None
         judge = _judge_of(program, constraints)
         bench = Bench(written, agent.final_tick, chance.draws, configuration.name in failed)
+        bench.leaves_variables = configuration.solver is not None
         bench.last_repair = repaired.get(configuration.name, -1)
         desks[configuration.name] = (judge, bench)
         _judge_model(judge, bench, tables)
@@ -113,6 +114,7 @@ def judge_plan(
     judge = _judge_of(program, constraints)
     bench = Bench(record, record.last_tick, _undrawn)
     bench.infers = True
+    bench.leaves_variables = True  # nothing was executed
     bench.told = told
     bench.is_whole = is_whole
     _judge_model(judge, bench, None)

@@ -21,6 +21,7 @@ from compiler.program import (
     Operand,
     Program,
     TokenVariable,
+    TypeCode,
     UnionOf,
 )
 from runtime.executive.record import BodyRun, GuardRun, OpenValues, Value, ValueRange
@@ -63,6 +64,7 @@ class VariableNames:
         self.classes = {code.name: code for code in program.classes}
         self.clock = next((k for k, (name, _) in enumerate(program.globals) if name == "AGENT_CLOCK"), -1)
         self.locals: dict[int, str] = {}
+        self.types: dict[int, TypeCode] = {}  # of local variables
         self.tokens: dict[int, tuple[str, str]] = {}  # slot -> label and predicate
         self.parts: dict[int, tuple[Operand, ...]] = {}  # slot of a part of an expression -> what it is computed from
         self._kinds: dict[tuple[str, str], bool] = {}
@@ -97,6 +99,20 @@ class VariableNames:
     def _parameter(self, predicate: str, number: int) -> str:
         code = self.predicates.get(predicate)
         return code.parameters[number].name if code is not None and number < len(code.parameters) else ""
+
+    def kind_of(self, operand: Operand) -> str:
+        """The kind of type of a variable with a name; empty for what is none."""
+        match operand:
+            case GlobalVariable(index=index):
+                return self.program.globals[index][1].kind
+            case LocalVariable(slot=slot) if slot in self.types:
+                return self.types[slot].kind
+            case TokenVariable(token=token, variable=variable) if variable >= FIRST_PARAMETER:
+                code = self.predicates.get(self.tokens.get(token, ("", ""))[1])
+                number = variable - FIRST_PARAMETER
+                return code.parameters[number].type.kind if code is not None and number < len(code.parameters) else ""
+            case _:
+                return ""
 
     def is_kind_of(self, class_name: str, other: str) -> bool:
         """Whether a class is, or extends, another."""

@@ -7,6 +7,7 @@ from checker.judge.bench import Bench
 from checker.judge.bodies import StepMaker, Written, compile_body
 from checker.judge.determined import Determined
 from checker.judge.functions import COMPUTED, result_index
+from checker.judge.guards import GuardInputs
 from checker.judge.meanings import Meaning, equal, is_true
 from checker.judge.operands import BodyFrame, Read, VariableNames, domain_value, is_range, reader
 from checker.judge.relating import CUT_OFF, LEFT_OPEN, Step, child_step, relate_step
@@ -25,6 +26,7 @@ from compiler.program import (
     ObjectLoop,
     Post,
     Sample,
+    TokenVariable,
     TypeCode,
 )
 from nddl_lang.text.source import Span
@@ -145,7 +147,7 @@ def _sample(sample: Sample, slot: int | None, names: VariableNames) -> Step:
     parameter, target = sample.parameter, sample.target
     read = reader(target, names)
     name = names.of(target)
-    is_local = isinstance(target, LocalVariable)
+    is_own = isinstance(target, LocalVariable) or (isinstance(target, TokenVariable) and target.token == 0)
 
     def step(frame: BodyFrame) -> None:
         tick = 0 if frame.tok is None else frame.tok.values[START]
@@ -156,7 +158,7 @@ def _sample(sample: Sample, slot: int | None, names: VariableNames) -> Step:
         value = read(frame)
         holds = equal(value, drawn)
         values = ((name, value), (parameter, drawn))
-        if is_local and holds is None and is_open(value) and not is_open(drawn) and frame.choosing is None:
+        if is_own and holds is None and is_open(value) and not is_open(drawn) and frame.choosing is None:
             frame.bench.judged += 1
             _note(frame, "draw", parameter, values, "left open", "the draw of the tick", sample.span)
         elif not frame.bench.weigh(holds):
@@ -296,6 +298,7 @@ def _refuse(
 
 def _guard(guard: Guard, then: list[Step], otherwise: list[Step], names: VariableNames) -> Step:
     condition = reader(guard.condition, names)
+    inputs = GuardInputs(guard.condition, names)
     text = guard.span.text.partition("{")[0].strip()
 
     def step(frame: BodyFrame) -> None:
@@ -317,7 +320,7 @@ def _guard(guard: Guard, then: list[Step], otherwise: list[Step], names: Variabl
         if reached.branch == "waiting":
             # What a token before the mission would ask for is left open.
             is_before = frame.tok is not None and ends_of(frame.tok.values[END])[1] <= 0
-            if truth is None or is_before or not reached.is_decided:
+            if truth is None or is_before or not (reached.is_decided or inputs.are_decided(frame)):
                 bench.open += 1
             else:
                 found = "then" if truth else "else"

@@ -104,7 +104,7 @@ def flown(
         "toy",
         ".",
         until,
-        tuple(replace(flyer.configuration) for flyer in flyers),
+        tuple(replace(flyer.configuration, solver="solver.toml" if solver else None) for flyer in flyers),
         goals,
         parameters,
         on_failure=on_failure,
