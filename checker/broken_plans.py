@@ -11,7 +11,7 @@ from checker.causes import Failed, failed_by
 from checker.culprit import culprit_of
 from checker.limits import Limit
 from checker.oracle import Verdict, given_up
-from runtime.executive.events import single_events
+from runtime.executive.events import numbered
 from runtime.executive.outcome import Event, EventKind, RepairStage, SourcePlace
 
 Breaking = tuple[str, SourcePlace | None]  # a reactor, and the line at which its plan broke
@@ -26,20 +26,20 @@ def usual_breaking(results: Sequence[MissionResult]) -> frozenset[Breaking]:
 def broken_plan(result: MissionResult, usual: Container[Breaking] = frozenset()) -> Event | None:
     """The repair of a plan that broke before the mission ended, of those with a conflict and not `usual`, the first.
 
+    At the tick of the end a plan of who gave up broke by that; another one's broke before.
     Of a mission that fails as there were too many repairs, the first at the line where plans broke most often.
     """
     outcome = result.outcome
     if outcome is None:
         return None
     abort = given_up(outcome)
-    end = abort.tick if abort is not None else outcome.last_tick + 1
     repairs = [
         (event, (event.reactor, culprit_of(event.conflict).place))
-        for event in single_events(outcome.events)
+        for at, event in numbered(outcome.events)
         if event.kind is EventKind.RELAX
         and event.stage is RepairStage.KEEP_PAST
         and event.conflict is not None
-        and event.tick < end
+        and (abort is None or (at < abort.event and (event.tick, event.reactor) != (abort.tick, abort.reactor)))
     ]
     if fails_by_repairs(result):
         counts = Counter(at for _, at in repairs)

@@ -17,9 +17,8 @@ from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, Draw, EventKind, OpenGoal, Reason, ReasonKind
 from runtime.executive.plan_reactor import PlanReactor
-from runtime.executive.reactor import Failure, Refusal, TeleoReactor
+from runtime.executive.reactor import Failure, Refusal, TeleoReactor, Watched
 from runtime.executive.record import ReactorRecord
-from runtime.executive.story import latest
 from runtime.executive.trace import Trace
 from runtime.plan.readout.names import VariableName
 
@@ -372,14 +371,20 @@ class DeterminedReactor(TeleoReactor):
             self.witnessed = self.tick
         return self.witness.reactor
 
-    def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
+    def why_it_lasts(self, token: int, key: int, least: float) -> tuple[VariableName, Conflict] | None:
         """What sets the end of a token that was published: asked of a general reactor, as this one has no causes."""
         if key >= 0:  # it became a general reactor before it published that
-            return None if self.general is None else self.general.why_it_lasts(token, key)
+            return None if self.general is None else self.general.why_it_lasts(token, key, least)
         general = self.general or self._asked()
         log = self.machine.log
         if 0 <= token < log.row_count and row_key(int(log.rows[ROW * token])) == key:
             line = general.by_name[self.program.model.lines[int(log.rows[ROW * token + LINE])].name]
             if line.current >= 0 and row_key(int(general.bench.started_at(line.current))) == key:
-                return latest(general.bench, general.bench.end(line.current))
+                return general.why_it_lasts(line.current, general.bench.key(line.current), least)
         return None
+
+    def hangs_on(self, conflict: Conflict | None) -> tuple[Watched, ...]:
+        """The elements of what `why_it_lasts` told that other reactors have to answer for."""
+        if self.general is not None:
+            return self.general.hangs_on(conflict)
+        return () if self.witness is None else self.witness.reactor.hangs_on(conflict)

@@ -53,7 +53,7 @@ cdef class PlanReactor(TeleoReactor):
 
     cpdef tuple hangs_on(self, conflict)
 
-    cpdef object why_it_lasts(self, long long token, long long key)
+    cpdef object why_it_lasts(self, long long token, long long key, double least)
 
     cpdef object why_asked(self, long long number, name, long long side)
 

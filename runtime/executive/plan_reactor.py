@@ -16,10 +16,10 @@ from runtime.executive.reactor import Failure, Refusal, SyncFailure, TeleoReacto
 from runtime.executive.record import ReactorRecord
 from runtime.executive.redrawing import draw_anew, leave_open
 from runtime.executive.repair import relax
-from runtime.executive.story import conflict_of, latest
+from runtime.executive.story import conflict_of
 from runtime.executive.synchronise import synchronise
 from runtime.executive.timelines import NOTHING, TimelineState
-from runtime.executive.told_on import watched_in, why_sent
+from runtime.executive.told_on import watched_in, why_lasting, why_sent
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.readout.names import VariableName
@@ -221,11 +221,9 @@ class PlanReactor(TeleoReactor):
         """The elements of a conflict that other reactors have to answer for."""
         return () if conflict is None else watched_in(conflict, self.bench, self.timelines, self.goals.posted)
 
-    def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
-        """The end of one of its tokens, and what sets it: the token lasts as long as the model allows (T-REX 1.5)."""
-        if not self.bench.is_alive(token, key):
-            return None
-        return latest(self.bench, self.bench.end(token))
+    def why_it_lasts(self, token: int, key: int, least: float) -> tuple[VariableName, Conflict] | None:
+        """The end of one of its tokens, and what sets it, or makes it `least` or later."""
+        return why_lasting(self.bench, self.timelines, self.hangs_on, token, key, least)
 
     def why_asked(self, number: int, name: str, side: int) -> tuple[VariableName, float, Conflict] | None:
         """A time of a token that it has asked for by a request: its name, its bound now, and what sets that."""

@@ -168,8 +168,8 @@ class TeleoReactor:
         """Mandatory goals that were not achieved."""
         return []
 
-    def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
-        """The name of the end of one of its tokens, and what sets that end."""
+    def why_it_lasts(self, token: int, key: int, least: float) -> tuple[VariableName, Conflict] | None:
+        """The name of the end of one of its tokens, and what sets it, or makes it `least` or later (-1: it is over)."""
         return None
 
     def why_asked(self, number: int, name: str, side: int) -> tuple[VariableName, float, Conflict] | None:

@@ -9,9 +9,10 @@ from runtime.executive.dispatch import Dispatch
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, ConflictElement, Deadlock, ElementKind
 from runtime.executive.reactor import TeleoReactor, Watched
-from runtime.executive.story import bounded
+from runtime.executive.story import bounded, latest
 from runtime.executive.timelines import NOTHING, Goal, TimelineState
 from runtime.executive.trace import Trace, as_it_is
+from runtime.executive.view import SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
 from runtime.plan.readout.names import TokenName, VariableName
 from runtime.plan.readout.statements import Term
@@ -82,6 +83,37 @@ def why_sent(
     return None
 
 
+def why_lasting(
+    bench: Workbench,
+    timelines: Sequence[TimelineState],
+    hangs_on: Callable[[Conflict], Sequence[Watched]],
+    token: int,
+    key: int,
+    least: float,
+) -> tuple[VariableName, Conflict] | None:
+    """The end of a token, and what sets it: what others publish or ask for, where that alone makes it `least` or later;
+    else the token lasts as long as the model allows (T-REX 1.5).
+    """
+    if not bench.is_alive(token, key):
+        return None
+    end, mark = bench.end(token), bench.mark()
+    behind = bounded(bench, end, SIDE_LOWER) if _outlasts(bench, timelines, end, least) else None
+    bench.rewind_to(mark)
+    bench.release(mark)
+    return behind if behind is not None and hangs_on(behind[1]) else latest(bench, end)
+
+
+def _outlasts(bench: Workbench, timelines: Sequence[TimelineState], end: int, least: float) -> bool:
+    """Whether an end is `least` or later if what others publish goes on until then, as who sleeps has not been told."""
+    if least < 0:
+        return False
+    for line in timelines:
+        if not line.is_internal and line.current != NOTHING and line.news is None:
+            if not bench.at_least(bench.end(line.current), least, SPAN_OBSERVATION, line.current):
+                return False
+    return bool(bench.engine.lower(end) >= least)
+
+
 def told_on(
     conflict: Conflict,
     watches: Sequence[Watched],
@@ -103,9 +135,10 @@ def told_on(
         if isinstance(source, Request):
             elements[watched.number] = _asked(element, watched.variable, source, owner, reactors, on)
             continue
-        lasts = owner.why_it_lasts(source.token, source.token_key)
+        lasts = owner.why_it_lasts(source.token, source.token_key, _least(element))
         if lasts is not None:
             end, reasons = lasts
+            reasons = told_on(reasons, owner.hangs_on(reasons), reactors, on)
             observed = replace(
                 element,
                 kind=ElementKind.SHARED_END,
@@ -115,6 +148,15 @@ def told_on(
             )
             elements[watched.number] = [*reasons.elements, observed]
     return Conflict(tuple(dict.fromkeys(element for together in elements for element in together)))
+
+
+def _least(element: ConflictElement) -> float:
+    """The tick at which an observed token that goes on is over at the earliest; -1 where it is over."""
+    match element.terms:
+        case (Term(name="bounds", arguments=(_, int() | float() as lower, int() | float() as upper)),):
+            return lower if upper >= HALF_INF else -1
+        case _:
+            return -1
 
 
 def _asked(

@@ -77,16 +77,16 @@ def test_what_it_never_published_has_no_causes(flown: DeterminedReactor) -> None
     for general in (None, flown._new_shadow().reactor):
         flown.general = general
         for token, key in ((10**6, row_key(3)), (10**6, 3), (-1, 3), (-1, row_key(0)), (-1, -1)):
-            assert flown.why_it_lasts(token, key) is None
+            assert flown.why_it_lasts(token, key, -1) is None
 
 
 def test_its_own_tokens_are_not_those_of_the_general_reactor(flown: DeterminedReactor) -> None:
     flown.general = general = flown._asked()
     bench = general.bench
     current = [line.current for line in general.by_name.values() if line.is_internal and line.current >= 0]
-    lasting = [t for t in current if flown.why_it_lasts(t, bench.key(t)) is not None]
+    lasting = [t for t in current if flown.why_it_lasts(t, bench.key(t), -1) is not None]
     assert lasting
-    assert all(flown.why_it_lasts(t, row_key(bench.key(t) + 10**6)) is None for t in lasting)
+    assert all(flown.why_it_lasts(t, row_key(bench.key(t) + 10**6), -1) is None for t in lasting)
 
 
 @pytest.mark.once
