@@ -47,13 +47,19 @@ def leaves_next(present: Present) -> bool:
 
 
 def comes_between(present: Present) -> bool:
-    """Whether what was asked for may start where something is to follow a token of another timeline that goes on."""
+    """Whether what was asked for may start where something is to follow first, which begins as late as it may."""
     n = present.lines
     for i in range(n):
+        if present.state[FOLLOWER * n + i] < 0 or present.state[WISH * n + i] < 0:
+            continue
+        if present.state[WISH_FROM * n + i] > present.now:
+            continue
         owner = present.state[OWNER * n + i]
-        if present.state[FOLLOWER * n + i] >= 0 and owner != i and not present.state[ENDING * n + owner]:
-            if present.state[WISH * n + i] >= 0 and present.state[WISH_FROM * n + i] <= present.now:
-                return True
+        if owner != i and not present.state[ENDING * n + owner]:
+            return True
+        if owner == i and present.state[ENDING * n + i]:
+            if present.state[MOST * n + present.state[SLOT * n + i]] > present.now:
+                return True  # nothing but the request would end what holds
     return False
 
 

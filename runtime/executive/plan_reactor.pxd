@@ -1,7 +1,7 @@
 # The C types of `plan_reactor.py`.
 
 cimport cython
-from runtime.executive.clock cimport next_reading
+from runtime.executive.clock cimport next_reading, next_within
 from runtime.executive.deferral cimport Deferral
 from runtime.executive.dispatch cimport Dispatch
 from runtime.executive.goals cimport Goals

@@ -1,6 +1,6 @@
 """A reactor that plans with a plan database: it synchronises, deliberates, asks owners for what it needs, repairs."""
 
-from runtime.executive.clock import next_reading
+from runtime.executive.clock import next_reading, next_within
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.deferral import Deferral
 from runtime.executive.dispatch import Dispatch
@@ -138,9 +138,9 @@ class PlanReactor(TeleoReactor):
             else:
                 soonest = min(soonest, self.dispatch.next_due(line, tick))
         soonest = min(soonest, bench.last_start(), self.planner.window.next_freed(tick, self.reach))
-        # Where steps are counted it counts when each variable of a token is decided, too.
+        # Where steps are counted it counts when each variable of a token is decided, whether there is a choice or not.
         is_metered = self.is_metered or self.max_steps is not None
-        soonest = min(soonest, bench.next_within(tick, self.reach, is_metered))
+        soonest = min(soonest, next_within(bench, tick, self.reach, is_metered))
         return int(max(tick + 1, soonest))
 
     def synchronise(self, tick: int) -> Failure | None:

@@ -112,11 +112,6 @@ cdef class PlanView:
     @cython.locals(found=double, rows=Rows, t="long long")
     cpdef double last_start(self) except? -1.0
 
-    @cython.locals(
-        earliest="long long[::1]", found="long long", last="long long", rows=Rows, start="long long", t="long long"
-    )
-    cpdef long long next_within(self, long long tick, long long reach, bint is_any) except? -1
-
     @cython.locals(engine=Engine, found=list, rows=Rows, t="long long")
     cpdef list unplaced(self, long long tick)
 

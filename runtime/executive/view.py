@@ -317,23 +317,6 @@ class PlanView:
             t = rows.link_after[LISTS * t + LIST_OPEN]
         return found
 
-    def next_within(self, tick: int, reach: int, is_any: bool) -> int:
-        """The first tick after `tick` whose window, `reach` ticks long, has in it a token that is not in it at `tick`.
-
-        What is decided and has its place does not count, unless `is_any`.
-        """
-        rows, earliest = self.rows, self.engine.lb
-        last, found = tick + reach, INFINITY
-        for t in range(rows.token_count):
-            if rows.status[t] == FREED:
-                continue
-            if not is_any and rows.link_head[LISTS * t + LIST_OPEN] < 0 and rows.link_head[LISTS * t + LIST_THREAT] < 0:
-                continue
-            start = earliest[rows.var0[t] + START]
-            if last < start < found:
-                found = start
-        return found - reach
-
     def unplaced(self, tick: int) -> list[int]:
         """Tokens that are in no sequence yet and may start by `tick` as well as later.
 

@@ -110,7 +110,7 @@ def test_what_competes_is_ordered_by_the_planner(rules: str, goals: tuple[GoalCo
     in_all_ways(simulator("sim", ARMS.replace("RULES", rules), "arm tap fan"), 40, goals, (), 1)
 
 
-@pytest.mark.parametrize("seed", [*range(40), 5218, 6278])
+@pytest.mark.parametrize("seed", [*range(40), 5218, 6278, 6479, 7034])
 def test_a_random_simulator_without_a_choice_flies_alike_in_all_ways(seed: int) -> None:
     fly_choiceless(seed)
 

@@ -2,6 +2,7 @@
 
 from math import inf
 
+from runtime.executive.clock import next_within
 from runtime.executive.view import SPAN_REQUEST
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import PlanDatabase
@@ -29,16 +30,16 @@ def with_tokens(*starts: tuple[int, float]) -> tuple[Workbench, list[int]]:
 
 def test_the_next_token_comes_into_the_window_so_many_ticks_before_its_start() -> None:
     bench, _ = with_tokens((40, inf), (25, 30), (7, 90))
-    assert [bench.next_within(tick, 10, False) for tick in (0, 14, 15, 29, 30)] == [15, 15, 30, 30, INFINITY - 10]
+    assert [next_within(bench, tick, 10, False) for tick in (0, 14, 15, 29, 30)] == [15, 15, 30, 30, INFINITY - 10]
 
 
 def test_what_has_its_place_comes_into_the_window_where_all_its_variables_count() -> None:
     bench, (token, _) = with_tokens((25, 30), (40, 50))
     o = bench.object_of(token)
     assert bench.activate(token)
-    assert bench.next_within(0, 10, False) == 15  # it has no place yet
+    assert next_within(bench, 0, 10, False) == 15  # it has no place yet
     assert bench.place_after(o, token, -1)
-    assert (bench.next_within(0, 10, False), bench.next_within(0, 10, True)) == (30, 15)
+    assert (next_within(bench, 0, 10, False), next_within(bench, 0, 10, True)) == (30, 15)
 
 
 def test_the_first_latest_start_of_what_is_undecided_ends_the_sleep() -> None:
