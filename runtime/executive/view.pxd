@@ -21,7 +21,7 @@ cdef class PlanView:
     cdef public Engine engine
     cdef public Rows rows
     cdef public str name
-    cdef public dict predicates, parameters, globals, requested, moved, asked
+    cdef public dict predicates, parameters, globals, requested, due, moved, asked
     cdef public bint is_reactive
     cdef public set external_objects, internal_objects, late_objects
     cdef public Recorder recorder

@@ -58,6 +58,7 @@ class PlanView:
         self.parameters: dict[int, dict[str, int]] = {}  # by predicate: the parameters' numbers by name
         self.globals = {name: number for number, (name, _) in enumerate(database.program.globals)}
         self.requested: dict[int, int] = {}  # token -> key
+        self.due: dict[int, int] = {}  # the same of what follows from such a token, which has left the plan
         self.moved: dict[int, None] = {}  # variables whose least value was raised since the last tidying
         self.asked: Mapping[int, object] = {}  # what owners were asked for, by the key of its token
         self.is_reactive = False  # it looks one tick ahead at most
@@ -347,7 +348,7 @@ class PlanView:
     def is_due_to_request(self, t: int) -> bool:
         """Whether the token, or one that it follows from, is one that somebody asked for."""
         while t >= 0:
-            if self.is_requested(t):
+            if self.is_requested(t) or self.due.get(t) == self.rows.key[t]:
                 return True
             t = self.rows.parent[t]
         return False

@@ -292,7 +292,18 @@ class Workbench(PlanView):
                 over.append(t)
         if not over or not fire(self.plan):
             return 0
-        return archive(self.plan, over, tick, self.leaving, self.recorder.leave)
+        return archive(self.plan, over, tick, self.leaving, self._leave)
+
+    def _leave(self, going: list[int], tick: int) -> None:
+        """Record tokens that leave the plan; what follows from a request still does."""
+        self.recorder.leave(going, tick)
+        rows = self.rows
+        for t in going if self.is_reactive else []:
+            if rows.children[t] >= 0 and self.is_due_to_request(t):
+                child = rows.children[t]
+                while child >= 0:
+                    self.due[child] = rows.key[child]
+                    child = rows.sibling[child]
 
     def tidy(self) -> None:
         """Forget limits of times that a later one of the same kind has made needless: they grow with every tick."""

@@ -50,3 +50,15 @@ def test_what_begins_at_once_may_delay_what_waits(lookahead: int) -> None:
         "if (n == 1) { duration == 3; starts_during(Door.Open open); } else { duration == 14; }", lookahead, ASKED[:2]
     )
     assert told == ["8 Work(n=2)", "22 Work(n=1)"]
+
+
+def test_what_follows_a_command_is_still_planned_when_that_is_over_by_who_looks_one_tick_ahead() -> None:
+    act = "duration == 2; if (n > 0) { before(object.Work next); next.n == n - 1; next.start >= start + 6; }"
+    text = f"{ARM} Arm::Work {{ {act} }} Arm arm = new Arm(Internal); close();"
+    goal = GoalConfiguration("arm", "Work", start=(3, 5), parameters=(("n", 2),))
+    outcome = fly(planner("owner", text, "arm", lookahead=1, early=("arm",)), until=30, goals=(goal,))
+    assert [line for line in history(outcome, "arm") if "Work" in line] == [
+        "3 Work(n=2)",
+        "9 Work(n=1)",
+        "15 Work(n=0)",
+    ]
