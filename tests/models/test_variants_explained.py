@@ -50,7 +50,7 @@ def test_the_line_that_was_put_in_is_among_the_first_causes(variant: Variant, tm
         assert failed.verdict.value == "FAIL"
         programs = [models.programs[each.model] for each in agent.reactors]
         world = Suspended(agent, programs, mission.check.limits, flyer, (), mission)
-        causes = CauseSearch(world, Bounds(40, 100.0)).causes(Missions([failed], []))
+        causes = CauseSearch(world, Bounds(20, 100.0)).causes(Missions([failed], []))
     named = [cause.place.text.rstrip("; ") for cause in causes.ranked[:FIRST]]
     changed = put_in(variant)
     is_coded = variant.edits[0][0].endswith(".py")  # the line that calls it is the nearest that a model has
