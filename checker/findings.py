@@ -123,9 +123,14 @@ class Findings:
         return tuple(result for result in self.results if result.verdict is Verdict.ERROR)
 
     @property
+    def is_unknown(self) -> bool:
+        """Whether nothing can be said: no mission was flown to its end, and no regression case decides."""
+        return self.rate.missions == 0 and not self.rate.exceeds
+
+    @property
     def holds(self) -> bool:
         """Whether the model may be believed: every planned mission counted, and not too many of them failed."""
-        return not (self.rate.exceeds or self.errors or self.is_interrupted)
+        return not (self.rate.exceeds or self.errors or self.is_interrupted or self.is_unknown)
 
 
 def regressed(cases: Sequence[FlownCase], limit: float) -> tuple[FlownCase, ...]:

@@ -311,4 +311,4 @@ def _report(
         return _FINDINGS
     if any(result.judgement.code not in (USER_CODE, OUT_OF_TIME) for result in findings.errors):
         return _BUG
-    return _UNUSABLE if findings.errors else _HOLDS
+    return _UNUSABLE if findings.errors or findings.is_unknown else _HOLDS

@@ -47,7 +47,7 @@ def _report_data(findings: Findings, excerpts: Excerpts) -> dict[str, Any]:
         "verdict": verdict_word(findings),
         "counts": {verdict.value.lower(): findings.count(verdict) for verdict in Verdict},
         "rate": {
-            "observed": rate.observed,
+            "observed": rate.observed if rate.counted else None,
             "limit": rate.limit,
             "exceeds": rate.exceeds,
             "is_certain": rate.is_certain,

@@ -50,7 +50,9 @@ def github_report(findings: Findings, excerpts: Excerpts) -> str:
         *([line] if (line := repaired_line(findings)) else []),
         f"run {findings.run_id}, seed {findings.seed}",
     ]
-    lines.append(command_line("notice", {"title": headline(findings)}, "\n".join(whole)))
+    lines.append(
+        command_line("error" if findings.is_unknown else "notice", {"title": headline(findings)}, "\n".join(whole))
+    )
     return "\n".join(lines) + "\n"
 
 

@@ -25,6 +25,7 @@ from checker.report.sentences import (
     errors_title,
     explained_by,
     missions,
+    observed_share,
     percent,
     rate_line,
     repaired_line,
@@ -87,7 +88,7 @@ def _head(findings: Findings) -> list[str]:
     word = verdict_word(findings)
     lost = f"; cost: {words}" if (words := damage_words(findings.tally)) else ""
     flown = str(len(findings.results)) if not findings.is_interrupted else f"{len(findings.results)}/{findings.planned}"
-    tiles = [(flown, "missions flown"), (str(rate.failures), "failed"), (percent(rate.observed), "failure rate")]
+    tiles = [(flown, "missions flown"), (str(rate.failures), "failed"), (observed_share(rate), "failure rate")]
     tiles.append((percent(rate.limit), "accepted"))
     if findings.errors:
         tiles.append((str(len(findings.errors)), errors_title(findings)))
@@ -100,7 +101,7 @@ def _head(findings: Findings) -> list[str]:
         '<div class="tiles">',
         *(f'<div class="tile"><b>{value}</b><span>{caption}</span></div>' for value, caption in tiles),
         "</div>",
-        rate_plot(rate),
+        *([rate_plot(rate)] if rate.counted else []),
         f'<p class="soft">{escape(rate_line(rate))}</p>',
         *(f'<p class="soft">{escape(line)}</p>' for line in further if line),
     ]

@@ -8,7 +8,7 @@ from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.oracle import Verdict
 from checker.rendering import failure_text
-from checker.report.sentences import case_name, explained_by
+from checker.report.sentences import case_name, decision, explained_by
 from nddl_lang.text.junit import junit_text, printable
 
 
@@ -29,6 +29,9 @@ def junit_report(findings: Findings, excerpts: Excerpts) -> str:
             _fail(case, result, _known_of(faults[result.number], result.number, findings, excerpts))
         elif result.verdict is Verdict.ERROR:
             _fail(case, result, [])
+    if findings.is_unknown and not findings.errors:
+        case = _test(suite, name, "all missions")
+        ElementTree.SubElement(case, "error", {"message": printable(decision(findings))})
     counts = {"tests": "testcase", "failures": "testcase/failure", "errors": "testcase/error"}
     totals = {key: str(len(suite.findall(tag))) for key, tag in counts.items()}
     suite.attrib.update(totals)

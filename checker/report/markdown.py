@@ -14,6 +14,7 @@ from checker.report.sentences import (
     explained_by,
     fault_title,
     headline,
+    observed_share,
     percent,
     rate_line,
     repaired_line,
@@ -34,7 +35,7 @@ def markdown_report(findings: Findings, excerpts: Excerpts) -> str:
     lines += [f"{_plain(cut_line(findings))}.", ""] if findings.is_cut else []
     lines += ["| missions | failed | failure rate | accepted | errors |", "| ---: | ---: | ---: | ---: | ---: |"]
     lines.append(
-        f"| {len(findings.results)} | {rate.failures} | {percent(rate.observed)} | {percent(rate.limit)} "
+        f"| {len(findings.results)} | {rate.failures} | {observed_share(rate)} | {percent(rate.limit)} "
         f"| {len(findings.errors)} |"
     )
     if cases := case_lines(findings):

@@ -11,7 +11,7 @@ from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES, Verdict
 from checker.rendering import failure_text
 from checker.report.cases import FailingCases, failing_cases
-from checker.report.sentences import explained_by, missions, percent
+from checker.report.sentences import decision, explained_by, missions, percent
 from nddl_lang.text.sarif import sarif_log, uri_of
 from runtime.executive.outcome import SourcePlace
 
@@ -45,6 +45,9 @@ def _of_cases(one: FailingCases, findings: Findings, excerpts: Excerpts) -> dict
 def _of_errors(findings: Findings, excerpts: Excerpts) -> list[dict[str, Any]]:
     """Missions that could not be flown, those together of which the same was said."""
     alike = Counter((one.judgement.code or Verdict.ERROR.value, failure_text(one.judgement)) for one in findings.errors)
+    if findings.is_unknown and not alike:
+        text = f"{decision(findings)}.".capitalize()
+        return [_result(Verdict.ERROR.value, "error", text, (), findings, excerpts)]
     return [
         _result(code, "error", f"{missions(count)} could not be flown: {why}.", (), findings, excerpts)
         for (code, why), count in alike.items()

@@ -74,6 +74,11 @@ def errors_title(findings: Findings) -> str:
     return f"errors {origin}" if origin else "missions that took too long"
 
 
+def observed_share(rate: Rate) -> str:
+    """The share of missions that failed; of none nothing is known."""
+    return percent(rate.observed) if rate.counted else "not known"
+
+
 def rate_line(rate: Rate) -> str:
     """The rate with its interval; where there is none, why."""
     level = number(rate.confidence * 100.0)
@@ -208,12 +213,14 @@ def fault_title(findings: Findings, index: int) -> str:
 
 
 def verdict_word(findings: Findings) -> str:
-    """One word for the whole: holds, fails, interrupted, error."""
+    """One word for the whole: holds, fails, interrupted, error, unknown."""
     if findings.is_interrupted:
         return "interrupted"
     if findings.rate.exceeds:
         return "fails"
-    return "error" if findings.count(Verdict.ERROR) else "holds"
+    if findings.count(Verdict.ERROR):
+        return "error"
+    return "unknown" if findings.is_unknown else "holds"
 
 
 def _interval_text(bounds: Interval) -> str:

@@ -7,6 +7,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from jsonschema import Draft202012Validator
 
 from checker.campaign import Campaign
 from checker.excerpts import Excerpts
@@ -24,8 +25,10 @@ from checker.report.sarif import sarif_report
 from checker.report.sentences import fault_title
 from checker.report.svg import Axis
 from checker.report.text import text_report
+from checker.schemas import schema
 from checker.steps import Step, StepKind
 from nddl_lang.text.write import write_whole
+from nddlc.main import run
 from runtime.executive.outcome import SourcePlace
 from tests.checker.fake_agent import load_split
 from tests.sarif import check_sarif
@@ -234,3 +237,21 @@ def test_markdown_tells_verdict_faults_and_costs(findings: Findings) -> None:
     assert "KeyError: &lt;'x' & \x07&gt;" in page
     assert "* repairs of plans: 4; requests between reactors: 59" in page
     assert "all of them optional" in page
+
+
+def test_of_no_mission_nothing_is_known_in_any_form(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mission = str((ROOT / "mission.toml").resolve())
+    monkeypatch.chdir(tmp_path)
+    assert run(["check", mission, "--seconds", "1e-9", "--workers", "1", "--no-store", "--format", "github"]) == 2
+    assert capsys.readouterr().out.startswith("::error title=gps%3A 0 missions of 200 (time was over)")
+    forms = {one.name: one.read_text(encoding="utf-8") for one in (tmp_path / "nddlc-report").iterdir()}
+    data = json.loads(forms["report.json"])
+    assert (data["verdict"], data["rate"]["observed"], data["missions"]) == ("unknown", None, [])
+    assert list(Draft202012Validator(schema("report")).iter_errors(data)) == []
+    assert '<span class="verdict unknown">unknown</span>' in forms["report.html"]
+    assert "## gps: unknown" in forms["report.md"]
+    assert "0 %" not in forms["report.md"]
+    assert ElementTree.fromstring(forms["junit.xml"]).get("errors") == "1"
+    assert [one["level"] for one in json.loads(forms["report.sarif"])["runs"][0]["results"]] == ["error"]
