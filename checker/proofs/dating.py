@@ -38,6 +38,7 @@ class Dated:
     open: int
     lags: int  # times that follow something as they did in the flight
     known: Mapping[str, Number] = field(default_factory=dict)  # variables over sampled values
+    flown: frozenset[str] = frozenset()  # those of them that rest on what the executive decided in the flight
 
 
 def dated(structure: Structure, freed: frozenset[str] = frozenset()) -> Dated:
@@ -57,6 +58,7 @@ class _Dating:
     divisors: list[tuple[Demand, Number]] = field(default_factory=list)
     limits: dict[str, tuple[str, str, list[Demand]]] = field(default_factory=dict)  # of ends that a line sets
     lags: int = 0
+    flown: set[str] = field(default_factory=set)
 
     def run(self) -> Dated:
         known = {id(variable): name for name, variable in self.structure.variables.items()}
@@ -89,6 +91,7 @@ class _Dating:
             self._use_up()
         for name, variable in self.structure.variables.items():
             if name not in self.known and (value := self._constant(name, variable)) is not None:
+                self.flown.add(name)
                 self._know(name, value)
                 self._propagate()
         return self._conditions()
@@ -115,6 +118,8 @@ class _Dating:
                 self.sources.add(demand)
                 if demand.name == "mulEq" and index < 2:
                     self.divisors.append((demand, numbers[1 - index]))
+                if not self.flown.isdisjoint(names):
+                    self.flown.add(names[index])
                 self._know(names[index], value)
 
     def _is_known(self, name: str) -> bool:
@@ -147,6 +152,7 @@ class _Dating:
             is_new = False
             for end in self.limits:
                 if end not in self.known and (found := self._longest(end)) is not None:
+                    self.flown.add(end)  # that the line was used up
                     self._know(end, found)
                     self._propagate()
                     is_new = True
@@ -161,6 +167,7 @@ class _Dating:
         else:
             self.lags += 1
         assert z3.is_int(variable)
+        self.flown.add(name)
         self._know(name, found)
 
     def _flown(self, name: str) -> float:
@@ -279,4 +286,4 @@ class _Dating:
         found += [
             Requirement(demand, divisor != 0) for demand, divisor in self.divisors if fraction(divisor) is None
         ]  # what is divided by may be 0 elsewhere
-        return Dated(tuple(found), left, self.lags, self.known)
+        return Dated(tuple(found), left, self.lags, self.known, frozenset(self.flown))

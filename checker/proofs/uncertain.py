@@ -217,6 +217,7 @@ class _Builder:
         self.structure = structure
         self.flights, self.others = flights, others
         self.known = found.known
+        self.flown = found.flown
         self.chosen = _chosen(found)
         self.ranges = ranges
         self.reactor = reactor
@@ -332,5 +333,5 @@ class _Builder:
 
     def _value(self, name: str) -> Fraction | None:
         """The value of a constant of the model, or of an argument that is the same for all values."""
-        known = self.known.get(name)
+        known = None if name in self.flown else self.known.get(name)
         return None if known is None else fraction(known)

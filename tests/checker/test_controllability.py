@@ -208,9 +208,8 @@ def told(folder: Path, changes: dict[str, str], simulator: str = "") -> tuple[in
 def test_whole_numbers_that_are_drawn_make_durations_uncertain(most: int, code: int, tmp_path: Path) -> None:
     answer, plan = told(tmp_path, {"ANALYSIS_MAX = 90": f"ANALYSIS_MAX = {most}"})
     assert answer == code
-    assert [(each["between"], each["token"].partition("#")[0]) for each in plan["durations"]] == [
-        ([50, 90], "Oven.Bake")
-    ]
+    (taken,) = plan["durations"]
+    assert (taken["between"], taken["token"].partition("#")[0]) == ([50, 90], "Oven.Bake")
     assert (plan["dynamic"], plan["strong"]) == (code == 0, code == 0)
 
 
@@ -228,19 +227,27 @@ class Task extends AgentTimeline {
 """
 
 
-def asked_of_two_runs(folder: Path, demand: str, constants: str = "") -> tuple[int, dict[str, Any]]:
+KIND_OF = """from runtime.user.constraint import function
+CONSTRAINTS = [function("kind_of", "size:number", "int", lambda size: 1, "a kind")]
+"""
+
+
+def asked_of_two_runs(folder: Path, demand: str, constants: str = "", kind: str = "1") -> tuple[int, dict[str, Any]]:
     """A task of two runs of 5 to 10 ticks, one after the other, under a further demand: exit code and the one plan."""
     (folder / "plan.nddl").write_text(
-        f'#include "TREX.nddl"\n{constants}{MOTORS}Task::Work {{ contains(Motor.Run one); one.kind == 1;'
+        f'#include "TREX.nddl"\n{constants}{MOTORS}Task::Work {{ contains(Motor.Run one); one.kind == {kind};'
         f" contains(Motor.Run two); two.kind == 2; one before two; two.end == end; {demand} }}\n"
         "Task task = new Task(Internal);\nMotor motor = new Motor(External);\nclose();\n"
     )
     (folder / "motor.nddl").write_text(
         f'#include "TREX.nddl"\n{MOTORS}int LENGTH = [5 10];\n'
-        "Motor::Run { int d; d == sampledParameter(LENGTH); duration == d; }\n"
+        "Motor::Run { int d; d == sampledParameter(LENGTH); duration == max(d, kind); }\n"
         "Motor motor = new Motor(Internal);\nclose();\n"
     )
+    (folder / "kinds.py").write_text(KIND_OF)
     (folder / "mission.toml").write_text("""
+[constraints]
+modules = ["kinds.py"]
 [mission]
 name = "motors"
 final_tick = 60
@@ -299,6 +306,12 @@ def test_a_limit_with_a_name_or_a_local_is_a_demand_like_one_with_a_number(
     code, plan = asked_of_two_runs(tmp_path, demand.format(most), constants.format(most, most // 2))
     assert (code, plan["dynamic"], plan["strong"]) == (int(most < 10), most >= 10, most >= 15)
     assert plan["left_out"] == 0
+
+
+def test_what_rests_on_the_flight_is_no_constant(tmp_path: Path) -> None:
+    demand = "two.start >= one.end + SETTLE; two.start <= one.end + SETTLE;"  # the end rests on what Python gives
+    code, plan = asked_of_two_runs(tmp_path, demand, "int SETTLE;\nSETTLE = 5;\n", "kind_of(SETTLE)")
+    assert (code, plan["dynamic"], plan["weak"]) == (0, True, True)
 
 
 def test_what_is_no_distance_is_counted(tmp_path: Path) -> None:
