@@ -13,7 +13,7 @@ cdef class Agent:
     cdef public bint every_tick
     cdef public list reactors, ahead, awake, killed, stirred
     cdef public dict owners, users, senders, takers, made, places
-    cdef public object seed
+    cdef public object seed, latest
     cdef public long long tick
 
     @cython.locals(reactor=TeleoReactor, soonest="long long", tick="long long")
@@ -46,6 +46,11 @@ cdef class Agent:
     cpdef object _ask(self, request, list busy)
 
     cpdef object _recall(self, number, list busy)
+
+    cpdef tuple _turn(self, TeleoReactor reactor)
+
+    @cython.locals(sender=TeleoReactor)
+    cpdef object _rouse(self, refusal, list busy)
 
     cpdef object _tell_refusals(self, list refusals)
 

@@ -1,6 +1,7 @@
 """Run one mission: the clock, and each tick every reactor in turn; a configuration goes in, an outcome comes out."""
 
 from collections.abc import Sequence
+from math import inf
 
 from runtime.executive.clocks import FastClock
 from runtime.executive.configuration import AgentConfiguration
@@ -23,6 +24,7 @@ from runtime.executive.trace import Trace, as_it_is
 
 _START, _SYNCHRONISE, _OBSERVE = Phase.START, Phase.SYNCHRONISE, Phase.OBSERVE
 _DELIBERATE, _DISPATCH = Phase.DELIBERATE, Phase.DISPATCH
+_FIRST = (inf, 0)  # before all turns
 
 
 class Agent:
@@ -67,6 +69,7 @@ class Agent:
         if tells_on:
             trace.tell_on = self._told_on
         self.tick = 0
+        self.latest = _FIRST  # of all turns of a tick
 
     def run(self, until: int | None = None) -> Outcome:
         """Carry out the mission from tick 0 to the final tick, to `until`, or to the abort."""
@@ -148,7 +151,10 @@ class Agent:
             return self._give_up(reactor, failure)
         self.trace.phase = _OBSERVE
         self._publish(reactor.observations(self.tick))
-        if reactor.lacking:  # who asked for it may be over at the same tick
+        if reactor.lacking:  # who asked for it may be over at the same tick, and comes later in it
+            for refusal in reactor.lacking:
+                if (sender := self.senders.get(refusal.request.number)) is not None:
+                    sender.due = min(sender.due, self.tick)
             self._tell_refusals(reactor.lacking)
             reactor.lacking.clear()
         return None
@@ -167,6 +173,7 @@ class Agent:
         Who has finished tells owners what it needs of them, and they plan for it in the same tick.
         """
         busy = list(self.awake)
+        self.latest = _FIRST
         abort = self._post_goals(busy)
         while (busy or self.stirred) and abort is None:
             while self.stirred and abort is None:
@@ -174,6 +181,7 @@ class Agent:
             if abort is not None or not busy:
                 continue
             reactor = self._most_urgent(busy)
+            self.latest = min(self.latest, self._turn(reactor))
             self.trace.phase = _DELIBERATE
             if self._step(reactor):
                 continue
@@ -225,9 +233,12 @@ class Agent:
     def _dispatch(self, reactor: TeleoReactor, busy: list[TeleoReactor]) -> Abort | None:
         """Deliver what a reactor takes back, asks for and refuses, now that it has finished planning."""
         self.trace.phase = _DISPATCH
-        refusals = reactor.refusals()
-        if refusals:
-            self._tell_refusals(refusals)
+        for refusal in reactor.refusals():
+            abort = self._rouse(refusal, busy)
+            if abort is not None:
+                return abort
+            self._tell_refusals([refusal])
+        self.trace.phase = _DISPATCH  # to tell who sleeps wakes it
         for number in reactor.recalls():
             abort = self._recall(number, busy)
             if abort is not None:
@@ -273,6 +284,20 @@ class Agent:
         abort = self._wake(owner, busy)
         if abort is None and owner in self.reactors:
             owner.recall(number)
+        return abort
+
+    def _turn(self, reactor: TeleoReactor) -> tuple[float, int]:
+        """What decides whose turn it is: the largest comes first."""
+        return reactor.urgency(self.tick), -self.places[reactor]
+
+    def _rouse(self, refusal: Refusal, busy: list[TeleoReactor]) -> Abort | None:
+        """Wake who sleeps though what it asked for is refused; it has its turn unless that would have been before."""
+        sender = self.senders.get(refusal.request.number)
+        if sender is None or sender in self.awake or sender not in self.reactors:
+            return None
+        abort = self._synchronise_one(sender)
+        if abort is None and sender in self.reactors and self._turn(sender) < self.latest:
+            busy.append(sender)
         return abort
 
     def _tell_refusals(self, refusals: list[Refusal]) -> None:

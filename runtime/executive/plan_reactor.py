@@ -389,6 +389,7 @@ class PlanReactor(TeleoReactor):
         """
         if not refusal.is_done:
             self.dispatch.refused[refusal.request.number] = refusal.event
+            self.is_stirred = True
 
     def _causes_of(self, line: TimelineState) -> tuple[int, ...]:
         """The requests that the current token answers; else what was published before."""

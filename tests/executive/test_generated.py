@@ -10,7 +10,7 @@ from runtime.executive.mission import record_mission, run_mission
 from runtime.executive.outcome import RepairStage
 from tests.executive.flying import fly, open_goals, planner
 from tests.executive.generated.campaign import faults_of_seed
-from tests.executive.generated.flights import lines_of, loaded
+from tests.executive.generated.flights import brief, lines_of, loaded
 from tests.executive.generated.oracle import Oracle
 from tests.executive.generated.writer import random_agent
 
@@ -52,6 +52,14 @@ def test_a_random_agent_of_many_reactors_flies_as_it_must(seed: int) -> None:
 @pytest.mark.parametrize("seed", [0, 3])
 def test_a_random_agent_with_priorities_and_a_shared_store_flies_as_it_must(seed: int) -> None:
     assert faults_of_seed(seed, wide=True, ranks=True)[1] == []
+
+
+def test_a_sleeper_asks_anew_in_the_tick_in_which_its_owner_gives_up_what_its_plan_has_come_to_leave_more_room(
+    tmp_path: Path,
+) -> None:
+    agent, programs = loaded(random_agent(41015, wide=True, rich=True, deep=True, ranks=True).write(tmp_path))
+    outcome, visited = (run_mission(agent, programs, 1, every_tick=every) for every in (False, True))
+    assert brief(outcome) == brief(visited)
 
 
 def test_what_a_sleeper_takes_in_before_it_forgets_the_past_is_on_record(tmp_path: Path) -> None:

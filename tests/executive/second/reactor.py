@@ -292,7 +292,8 @@ class Reactor:
     def step(self, cost: int) -> bool:
         """Take in what was asked and plan, or make one decision of that plan; whether there is more to do.
 
-        Each decision takes `cost` steps; who looks one tick ahead makes all its decisions in one.
+        Each decision takes `cost` steps, and so does a goal that is tried in vain; who looks one tick ahead makes all
+        its decisions in one.
         """
         if self.found is None:
             for what, goal in self.asked:
@@ -301,7 +302,8 @@ class Reactor:
             self.goals += [goal for what, goal in self.asked if what == "ask" and goal.state == "open"]
             self.asked = []
             self.found, self.states = self._planned()
-            self.left = 0 if self.simulates else cost * (self.found.decisions - self.plan.decisions)
+            vain = sum(state == "rejected" and goal.state != state for goal, state in self.states.items())
+            self.left = 0 if self.simulates else cost * (self.found.decisions - self.plan.decisions + vain)
         if self.left > 0:
             self.left -= 1
             self.steps += 1
