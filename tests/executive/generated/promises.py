@@ -165,6 +165,8 @@ def of_one_alone(oracle: Oracle, line: Line, asked: Asked, held: Held) -> Iterat
         return
     most = (ends(held.arguments["n"])[1] + line.extra) if line.kind == "command" else (line.lasts[1] or INFINITE)
     longest = min(most, asked.duration[1], asked.end[1] - held.start)
+    if asked.recalled is not None and asked.recalled < held.start + longest:
+        longest = most  # who has taken back what runs binds it no more
     if not longest <= held.end - held.start <= longest + line.slack:
         yield f"{line.name} was to last {longest}, and lasted from {held.start} to {held.end}"
 
