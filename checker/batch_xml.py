@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from xml.parsers import expat
 
 from checker.codes import ILL_BATCH, NO_EFFECT
+from checker.mission_table import HELD, is_held
 from checker.written_mission import key_text
 from nddl_lang.text.byte_places import BytePlaces
 from nddl_lang.text.diagnostic import Diagnostic, Severity
@@ -267,8 +268,10 @@ def _values(node: _Node, complaints: list[Diagnostic]) -> dict[str, float]:
             value = float(text)
         except ValueError:
             value = math.nan
-        if not math.isfinite(value) or (key in ("Seed", "UpdateFrequency") and value != int(value)):
+        if not is_held(value) or (key in ("Seed", "UpdateFrequency") and value != int(value)):
             wanted = "a whole number" if key in ("Seed", "UpdateFrequency") else "a number, such as 0.5"
+            if not is_held(value) and math.isfinite(value):
+                wanted = f"a number {HELD}"
             complaints.append(ILL_BATCH.at(span, reason=f"`{key}` is `{text}`", help=f"it is {wanted}"))
         else:
             found[key] = value

@@ -4,6 +4,7 @@ The format is described in docs/mission.md; its parts are those of T-REX's agent
 file (reference of T-REX, 3.1 and 5.5).
 """
 
+import math
 import tomllib
 from collections.abc import Collection
 from dataclasses import dataclass, replace
@@ -17,7 +18,7 @@ from checker.codes import NO_GOALS, NO_OWNER, NOT_TOML
 from checker.figures import Figures, read_figures
 from checker.goal_fit import goals_out_of_time
 from checker.limits import Limit
-from checker.mission_table import MissionText, Table, TomlTable, is_finite_number
+from checker.mission_table import HELD, MissionText, Table, TomlTable
 from checker.named_files import look_at
 from checker.parameter_tables import read_parameters
 from checker.property_tables import read_properties
@@ -31,6 +32,7 @@ from nddl_lang.text.source import Source, Span
 from nddl_lang.text.toml_places import find_places
 from nddl_lang.text.toml_slips import not_toml
 from nddl_lang.text.values import toml_value
+from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.configuration import (
     AgentConfiguration,
     Bounds,
@@ -243,8 +245,8 @@ def _goal_value(table: Table, key: str) -> Value | Bounds:
     value = table.values[key]
     if isinstance(value, list):
         return table.bounds(key) or 0
-    if isinstance(value, int) and not isinstance(value, bool) and not is_finite_number(value):
-        table.complain_of_value(key, value, "a number that can be held")
+    if isinstance(value, int | float) and not isinstance(value, bool) and HALF_INF <= abs(value) < math.inf:
+        table.complain_of_value(key, value, f"a number {HELD}")
         return 0
     if isinstance(value, int | float | str):
         return value

@@ -19,11 +19,13 @@ from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
 from nddl_lang.text.nearest import begun, nearest
 from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import Path, Stretch
+from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.configuration import Bounds
 from runtime.executive.outcome import SourcePlace
 
 _MOST_TICKS = 10**12  # far from where sums of times overflow
 _LARGEST = sys.float_info.max
+HELD = "that can be held, below 2^51 in size"  # what is beyond counts as infinite in the engine
 LEAST = math.ulp(0.0)  # of the numbers above 0
 _MOST_SHOWN = 60  # characters of a value in a message
 TomlTable = dict[str, object]
@@ -200,14 +202,14 @@ class Table:
         """A number from `lower` to `upper`; above 0 where `lower` is `LEAST`."""
         value = self._take(key)
         if isinstance(value, int | float) and not isinstance(value, bool):
-            is_held = -_LARGEST <= value <= _LARGEST
-            if lower <= value <= upper and (is_held or not is_finite):
-                return float(value) if is_held else upper
+            may_be = is_held(value) if is_finite else -_LARGEST <= value <= _LARGEST
+            if lower <= value <= upper and (may_be or not is_finite):
+                return float(value) if may_be else upper
             wanted = f"from {lower:g} to {upper:g}" if upper < math.inf else f"at least {lower:g}"
             if lower == LEAST:
                 wanted = "greater than 0"
-            if not is_held and is_finite:
-                wanted = "finite"
+            if is_finite and not may_be and not lower > value:
+                wanted = f"a number {HELD}" if abs(value) < math.inf else "finite"
             is_percent = (lower, upper) == (0.0, 1.0) and 1.0 < value <= 100.0
             self.complain_of_value(key, value, wanted, f"{value:g} % is {value / 100:g}" if is_percent else None)
         else:
@@ -217,9 +219,9 @@ class Table:
     def numbers(self, key: str) -> tuple[float, ...]:
         """A list of finite numbers, empty by default."""
         value = self._take(key)
-        if isinstance(value, list) and all(is_finite_number(item) for item in value):
+        if isinstance(value, list) and all(is_held(item) for item in value):
             return tuple(float(item) for item in value)
-        self._complain_of_type(key, value, "a list of finite numbers")
+        self._complain_of_type(key, value, f"a list of finite numbers {HELD}")
         return ()
 
     def rows(self, key: str, width: int) -> tuple[tuple[float, ...], ...]:
@@ -229,8 +231,8 @@ class Table:
             self._complain_of_type(key, value, f"a list of rows of {width} numbers")
             return ()
         for index, row in enumerate(value):
-            if len(row) != width or not all(is_finite_number(one) for one in row):
-                found = f"{len(row)}" if len(row) != width else "what is no finite number"
+            if len(row) != width or not all(is_held(one) for one in row):
+                found = f"{len(row)}" if len(row) != width else f"what is no number {HELD}"
                 span = self.text.value_span((*self.path, key, index))
                 wanted = f"{width} numbers, one for each parameter"
                 self.text.diagnostics.append(WRONG_TYPE.at(span, key=f"row {index + 1}", wanted=wanted, found=found))
@@ -258,14 +260,11 @@ class Table:
             )
             return None
         ends = (lower, upper)
-        if any(isinstance(end, int) and not is_finite_number(end) for end in ends):
-            self.complain_of_value(key, f"[{lower}, {upper}]", "numbers that can be held")
+        if not all(is_held(end) or abs(end) == math.inf for end in ends):
+            self.complain_of_value(key, f"[{lower}, {upper}]", f"numbers {HELD}")
             return None
-        if is_finite and not all(is_finite_number(end) for end in ends):
+        if is_finite and math.inf in (-lower, upper):
             self.complain_of_value(key, f"[{lower}, {upper}]", "finite at both ends")
-            return None
-        if is_finite and upper - lower > _LARGEST:
-            self.complain_of_value(key, f"[{lower}, {upper}]", "narrower: the width is no number that can be held")
             return None
         return (lower, upper)
 
@@ -385,9 +384,9 @@ def _short(value: object) -> str:
     return text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
 
 
-def is_finite_number(value: object) -> bool:
-    """Whether it is a number that a float can hold, or nearly."""
-    return isinstance(value, int | float) and not isinstance(value, bool) and -_LARGEST <= value <= _LARGEST
+def is_held(value: object) -> bool:
+    """Whether it is a number that the engine can tell from infinity."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and -HALF_INF < value < HALF_INF
 
 
 def _is_number(value: object) -> bool:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 
 from checker.codes import NO_OWNER, TWICE
-from checker.mission_table import Table
+from checker.mission_table import HELD, Table, is_held
 from checker.respelt import respelt
 from nddl_lang.text.nearest import nearest
 from runtime.executive.configuration import (
@@ -84,5 +84,7 @@ def _wanted(table: Table, key: str, values: Mapping[str, object]) -> Value | Bou
     if isinstance(value, list):
         return table.bounds(key) or 0
     if isinstance(value, int | float | str):
+        if not isinstance(value, str | bool) and not is_held(value):
+            table.complain_of_value(key, value, f"a number {HELD}")
         return value
     return table.string(key)  # complains

@@ -1,10 +1,12 @@
 """What `run`, `replay` and `gold` share: a mission file read and its models checked, and values for parameters."""
 
+import re
 from pathlib import Path
 
 import click
 
 from checker.mission import Mission, read_mission
+from checker.mission_table import HELD, is_held
 from checker.models import ModelSet
 from checker.names import relative_name
 from checker.sampling.rendering import describe
@@ -18,6 +20,7 @@ from nddlc.inputs import Unusable, readable
 from nddlc.mission_trust import models_of
 from runtime.executive.configuration import ParameterConfiguration
 
+_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _MOST_WARNINGS = 3  # that are shown before a flight
 
 
@@ -84,11 +87,12 @@ def values_of(given: tuple[str, ...], models: ModelSet) -> dict[str, float]:
             meant = nearest(name, known)
             advice = f"did you mean `{meant}`?" if meant is not None else f"there are: {', '.join(known) or 'none'}"
             raise Unusable(f"the models sample no parameter `{name}`", advice)
-        try:
-            values[name] = float(text)
-        except ValueError:
-            problem = f"`{name}` takes a number, not `{text}`" if text else f"`{one}` gives no value"
-            raise Unusable(problem, f"write `{name}=` and a number") from None
+        is_number = _NUMBER.fullmatch(text) is not None
+        if not is_number or not is_held(float(text)):
+            wanted = f"a number {HELD}" if is_number else "a number"
+            problem = f"`{name}` takes {wanted}, not `{text}`" if text else f"`{one}` gives no value"
+            raise Unusable(problem, f"write `{name}=` and a number")
+        values[name] = float(text)
         parameter = next(one for one in models.agent.parameters if one.name == name)
         if not _may_be_drawn(parameter, values[name]):
             click.echo(f"note: {text} is never drawn: {name} is {describe(parameter)}", err=True)

@@ -175,6 +175,15 @@ def test_a_value_that_is_never_drawn_is_told(capsys: pytest.CaptureFixture[str])
         assert told in said if told else "never drawn" not in said
 
 
+@pytest.mark.parametrize(
+    "text", ["nan", "inf", "-inf", "1e300", "2251799813685248", "\N{ARABIC-INDIC DIGIT THREE}", "1_0", " 3"]
+)
+def test_a_value_that_no_parameter_can_have_is_refused(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("mission.toml").write_text(MISSION)
+    assert run(["run", "mission.toml", "--param", f"LEGS={text}"]) == 2
+    assert "`LEGS` takes a number" in capsys.readouterr().err
+
+
 def test_an_owner_that_takes_no_requests_is_told_of(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     asking = MODEL.replace("duration >= 3;", "duration >= 3; contains(Drive.Go there); there.object == other;")
     asking = asking.replace(

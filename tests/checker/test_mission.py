@@ -241,11 +241,23 @@ _HUGE = "9" * 400
         ("[end]", "[parameters.A]\nmean = 1\nsigma = inf", "`sigma` must be finite, not inf"),
         ("[end]", f"[parameters.A]\nvalues = [1, {_HUGE}]", "`values` must be a list of finite numbers"),
         ("[end]", f"[parameters.A]\nrange = [0, {_HUGE}]", "`range` must be numbers that can be held"),
-        ("[end]", "[parameters.A]\nrange = [-1e308, 1e308]", "`range` must be narrower"),
+        ("[end]", "[parameters.A]\nrange = [-1e308, 1e308]", "`range` must be numbers that can be held"),
         ("[end]", "[parameters.A]\nrange = [0, 1]\nclip = [2, 3]", "`clip` must be such that it meets [0, 1]"),
         ("[end]", '[parameters.A]\nrange = [0.2, 3]\nkind = "int"', "`range` must be whole numbers at both ends"),
         ("[end]", "[parameters.A]\nrange = [0, 1]\nupdate = 5", '`update` has no effect without `mode = "intra"`'),
         ("[end]", f"{GOAL}distance = {_HUGE}", "`distance` must be a number that can be held"),
+        *(
+            ("[end]", text, "that can be held, below 2^51 in size")
+            for size in ("2251799813685248", "-4503599627370495", "1e30")
+            for text in (
+                f"{GOAL}distance = {size}",
+                f"{GOAL}distance = [{', '.join(sorted(('0', size)))}]",
+                f"[parameters.A]\nvalue = {size}",
+                f"[parameters.A]\nvalues = [{size}]",
+                f'[joint.S]\nparameters = ["A"]\nrows = [[{size}]]',
+                f'[[property]]\nname = "q"\nkind = "never"\ntimeline = "gps"\nparameters = {{ n = {size} }}',
+            )
+        ),
         ("[end]", f"{GOAL}distance = {{ a = 1 }}", "`distance` must be a number, a text in quotes, true or false, or"),
         ("[end]", f"{GOAL}distance = 2026-01-01", "a pair [lower, upper] of numbers, not a date or time"),
     ],

@@ -77,6 +77,7 @@ def test_no_mission_is_flown_with_a_solver_that_was_not_understood(
     ("right", "wrong", "line", "told"),
     [
         ("<Min>-0.3</Min>", "<Min>minus 0.3</Min>", 5, "a number, such as 0.5"),
+        ("<Min>-0.3</Min>", "<Min>-1e30</Min>", 5, "below 2^51 in size"),
         ("<Min>-0.3</Min>\n      <Max>0.3", "<Min>0.3</Min>\n      <Max>-0.3", 5, "exchange them"),
         ("<Max>0.3</Max>", "<Max>0.3<Max>", 6, "it ends with `</Max>`"),
         ("<Max>0.3</Max>", "", 3, "`Max` is missing"),
