@@ -244,6 +244,8 @@ def claimed(
         return None
     if measured.precision.value < share + _LEAST_GAIN * (1.0 - share):
         return None
+    if measured.outside is None or measured.outside >= measured.precision.value:
+        return None  # it holds for every mission, or missions fail as often where it does not
     near = measured.near if has_flown else None
     found = Condition(conjunctions, measured.precision, measured.recall, measured.fresh, near, flights)
     redrawn = {axis.name for axis in space.parameters if axis.is_redrawn}

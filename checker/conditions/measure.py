@@ -31,14 +31,16 @@ _TELLING, _LEAST_FAILING = 4, 0.5  # missions for which one part alone holds: ho
 class Quality:
     """Precision and recall, over how many missions, and how many of them were near an edge.
 
-    `inside` are the missions for which it holds, each with whether it failed.
+    `inside` are the missions for which it holds, each with whether it failed; `outside` is the share of the others that
+    failed, None where there were none.
     """
 
     precision: Share
     recall: Share
     fresh: int
     near: int
-    inside: tuple[tuple[Row, bool], ...] = ()
+    inside: tuple[tuple[Row, bool], ...]
+    outside: float | None
 
 
 @dataclass(slots=True)
@@ -97,7 +99,10 @@ def measure(
     precision = _weighted(inside, [one.failed for one in inside])
     hit, lost = _total(inside), _total(outside)
     recall = Share(_part(hit[0], lost[0]), (_part(hit[1], lost[2]), _part(hit[2], lost[1])))
-    return Quality(precision, recall, flown, near_flown, tuple(end for one in inside for end in one.ends))
+    beyond = None
+    if any(one.flown for one in outside):
+        beyond = _weighted(outside, [one.failed for one in outside]).value
+    return Quality(precision, recall, flown, near_flown, tuple(end for one in inside for end in one.ends), beyond)
 
 
 def measured_on(rows: Sequence[tuple[Row, Ended]], conjunctions: Sequence[Conjunction]) -> Quality:
@@ -107,7 +112,9 @@ def measured_on(rows: Sequence[tuple[Row, Ended]], conjunctions: Sequence[Conjun
     ends = tuple((row, label is not Ended.PASSES) for row, label in inside)
     hit = sum(label is Ended.FAILS for _, label in inside)
     failed = sum(has_failed for _, has_failed in ends)
-    return Quality(_share(failed, len(inside)), _share(hit, alike), len(rows), 0, ends)
+    others = [label is not Ended.PASSES for row, label in rows if not holds(conjunctions, row)]
+    beyond = sum(others) / len(others) if others else None
+    return Quality(_share(failed, len(inside)), _share(hit, alike), len(rows), 0, ends, beyond)
 
 
 def weighted_on(
@@ -137,7 +144,11 @@ def weighted_on(
         lambda is_inside, label: not is_inside and label is Ended.FAILS,
     )
     ends = tuple((row, label is not Ended.PASSES) for row, label, _ in inside)
-    return Quality(precision, recall, len(rows), 0, ends)
+    others = [(weight, label is not Ended.PASSES) for row, label, weight in rows if not holds(conjunctions, row)]
+    beyond = (
+        sum(weight for weight, failed in others if failed) / sum(weight for weight, _ in others) if others else None
+    )
+    return Quality(precision, recall, len(rows), 0, ends, beyond)
 
 
 def parts_that_hold(conjunctions: Sequence[Conjunction], measured: Quality) -> tuple[Conjunction, ...]:

@@ -237,22 +237,25 @@ def test_words_of_conditions() -> None:
 
 
 @pytest.mark.parametrize(
-    ("precision", "share", "is_told"),
+    ("precision", "share", "outside", "is_told"),
     [
-        (0.84, 0.88, False),
-        (0.9, 0.88, False),
-        (0.97, 0.88, True),
-        (0.84, 0.3, True),
-        (0.5, 0.02, True),
-        (0.5, 0.3, False),
+        (0.84, 0.88, 0.5, False),
+        (0.9, 0.88, 0.5, False),
+        (0.97, 0.88, 0.5, True),
+        (0.84, 0.3, 0.0, True),
+        (0.5, 0.02, 0.0, True),
+        (0.5, 0.3, 0.0, False),
+        (1.0, 1.0, None, False),  # `P < 0.4 or P >= 0.2`
+        (1.0, 1.0, 1.0, False),
+        (1.0, 1.0, 0.9, True),
     ],
 )
 def test_a_condition_that_tells_hardly_more_than_the_rate_is_none(
-    precision: float, share: float, is_told: bool
+    precision: float, share: float, outside: float | None, is_told: bool
 ) -> None:
     literal = Literal(axis_feature("P"), True, 0.5)
     agent = AgentConfiguration("one", ".", 10, (), parameters=(ParameterConfiguration("P", 0.0, 1.0),))
-    quality = Quality(Share(precision, (0.0, 1.0)), Share(0.9, (0.0, 1.0)), 200, 20)
+    quality = Quality(Share(precision, (0.0, 1.0)), Share(0.9, (0.0, 1.0)), 200, 20, (), outside)
     found = claimed(((literal,),), quality, 10, Space(agent, []), share, has_flown=True)
     assert (found is not None) == is_told
 
