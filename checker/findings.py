@@ -15,7 +15,7 @@ from checker.conditions.flights import HasTime, Refly, forever
 from checker.conditions.record import Conditions
 from checker.counterfactual.effort import Allowance
 from checker.counterfactual.ranking import CANCELLED, NO_CAUSES, Causes
-from checker.counterfactual.trials import TrialsEnd
+from checker.counterfactual.tried import TrialsEnd
 from checker.faults import MOST_SOUGHT, Interruptible, Seeker, Sought, faults_of, found_before, missions_of
 from checker.mission import Mission
 from checker.oracle import Verdict

@@ -11,7 +11,7 @@ from checker.campaign import Campaign
 from checker.contrast import Contrast, Trace
 from checker.counterfactual.effort import Stopwatch
 from checker.counterfactual.ranking import Causes
-from checker.counterfactual.trials import TrialsEnd
+from checker.counterfactual.tried import TrialsEnd
 from checker.excerpts import Excerpts
 from checker.explain import page_text
 from checker.faults import Interruptible

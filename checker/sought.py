@@ -11,7 +11,7 @@ from checker.batch.engine import engine_digest
 from checker.batch.result import MissionResult, read_record, write_record
 from checker.conditions.record import read_condition, write_condition
 from checker.counterfactual.ranking import Causes
-from checker.counterfactual.trials import TrialsEnd
+from checker.counterfactual.tried import TrialsEnd
 from checker.faults import Sought
 from checker.findings import Ending, Findings
 

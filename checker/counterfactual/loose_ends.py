@@ -13,7 +13,7 @@ from dataclasses import replace
 from checker.counterfactual.branches import uneven_branches
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.dependence import Dependence, LooseEnd
-from checker.counterfactual.trials import Loose
+from checker.counterfactual.tried import Loose
 from checker.counterfactual.usage import Usage
 from checker.mutation.edits import EditSite
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from checker.counterfactual.candidates import Candidate
 from checker.counterfactual.damage import HEAVY
 from checker.counterfactual.remarks import Remark
-from checker.counterfactual.trials import LineTrial, Loose, Trials, TrialsEnd
+from checker.counterfactual.tried import LineTrial, Loose, Trials, TrialsEnd
 from checker.mutation.edits import EditSite, SmallEdit
 from checker.mutation.kinds import EditKind
 from checker.names import relative_name

@@ -5,7 +5,7 @@ from typing import Any, assert_never
 
 from checker.counterfactual.ranking import Causes, Claim, RankedLine
 from checker.counterfactual.remarks import Remark
-from checker.counterfactual.trials import TrialsEnd
+from checker.counterfactual.tried import TrialsEnd
 from checker.mutation.edits import SmallEdit
 from checker.mutation.kinds import EditKind
 from checker.mutation.swaps import swapped_parts

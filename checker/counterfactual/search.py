@@ -22,7 +22,8 @@ from checker.counterfactual.moments import with_durations
 from checker.counterfactual.python_ways import asleep_in
 from checker.counterfactual.ranking import Causes, Claim, RankedLine, rank
 from checker.counterfactual.remarks import remarks_of, with_remarks
-from checker.counterfactual.trials import Trials, try_out
+from checker.counterfactual.trials import try_out
+from checker.counterfactual.tried import Trials
 from checker.counterfactual.usage import usage_of
 from checker.coverage import Universe
 from checker.culprit import checks_of, is_of_values, lacking_in
@@ -33,6 +34,7 @@ from checker.mutation.edits import EditSite, SmallEdit, sites_of
 from checker.mutation.kinds import OUTSIDE
 from checker.mutation.labels import labels_of
 from checker.mutation.mission_edits import agent_with
+from checker.mutation.successors import with_successors
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
 from checker.oracle import Verdict, given_up, judge_losses
 from checker.proofs.places import text_of
@@ -110,7 +112,7 @@ def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]
         for site in sites_of(load_graph(root / model, overlay)):
             found.setdefault((site.file, site.first, site.text), site)
     sites = list(found.values())
-    return with_durations(with_additions(sites, labels_of(agent.goals, sites)))
+    return with_successors(with_durations(with_additions(sites, labels_of(agent.goals, sites))))
 
 
 def _as_flown(missions: Missions, agent: AgentConfiguration) -> Missions:

@@ -6,8 +6,7 @@ to the least likely and end after so many flights or seconds: what could not be 
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
-from enum import StrEnum
+from dataclasses import replace
 
 from checker.batch.interruption import InterruptedSearch
 from checker.batch.result import MissionResult
@@ -28,6 +27,7 @@ from checker.counterfactual.missions import Missions
 from checker.counterfactual.numbers import between, is_doubling, is_raised
 from checker.counterfactual.orders import is_order_turned
 from checker.counterfactual.smallness import cost_of, delay_of, first_edits, is_probe
+from checker.counterfactual.tried import LineTrial, Trials, TrialsEnd
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import Usage
 from checker.mutation.edits import EditSite, SmallEdit
@@ -42,12 +42,8 @@ _TOLD = 3  # small changes of models beside which a goal is not doubted
 _NAMESAKE = 0.2  # how much later a name is tried at each further line of a rule: what lacks a mention lacks it at one
 _CONFIRMED = 3  # causes that are tried on other missions too
 _KEPT = 0.3  # of the flights, at most, for that
-_FAR = 0.1  # what the distance of a line counts beside the cost of its change
 _PATCHED = 1.0  # what it counts that a mission passes after repairs alone
-_PROVEN = 0.15  # odds of a number that did before the failure what it is there for
-_WARNED = 1.0  # odds of a line that lint warns of
-_SOONER = 1.0  # how much sooner it is tried
-_UNTRIED = 0.01  # what was tried in no other mission is behind what helps in all, and before what helps in some
+_SOONER = 1.0  # how much sooner a line is tried that lint warns of
 _NEAR, _SEARCHED = 0.25, 0.5  # distance of what a conflict speaks of, and of what ruled out a choice of a search
 _PROBE = -0.1  # when such a line is left out: where that helps, it is at fault or what it compares is
 _TURNED = 0.0  # and when the order of two of its tokens is turned round
@@ -62,84 +58,6 @@ _FOLLOWED = 0.35  # how much likelier a change of a line is once another change 
 
 # A change, a mission and how many seconds it may take in; how the mission ends with that change out.
 Try = Callable[[SmallEdit, MissionResult, float], MissionResult]
-
-
-class TrialsEnd(StrEnum):
-    """Why no more was tried."""
-
-    COMPLETE = "complete"
-    FLIGHTS = "flights"
-    SECONDS = "seconds"  # of processor time
-    CLOCK = "clock"  # the machine gave it so little of that
-    CANCELLED = "cancelled"
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class LineTrial:
-    """A change that makes the mission pass: what is still lost then, and on how many failed missions it helps.
-
-    `spoilt` missions passed before and do not with the change; `is_evasive`: what is usual does not happen then.
-    `is_untried`: it was tried on no other mission.
-    """
-
-    candidate: Candidate
-    edit: SmallEdit
-    damage: float
-    cost: float
-    helped: int = 1
-    missions: int = 1
-    spoilt: int = 0
-    is_evasive: bool = False
-    is_untried: bool = True
-
-    @property
-    def toll(self) -> float:
-        """What is lost with the change, and how unlikely it is."""
-        return self.damage + self.cost + (HEAVY if self.is_evasive else 0.0)
-
-    @property
-    def order(self) -> tuple[bool, float]:
-        """Of the changes of one line, the first counts: what takes no demand away is before what does."""
-        return self.toll < HEAVY and self.candidate.takes_away(self.edit), self.toll
-
-    @property
-    def is_clean(self) -> bool:
-        """Whether it helps all missions that it was tried on, and spoils none."""
-        return self.helped == self.missions and not self.spoilt
-
-    @property
-    def weight(self) -> tuple[float, float, float]:
-        """What causes are ranked by: missions that fail with it; what is lost, how likely it is, and how far off."""
-        seen = _PROVEN * self.candidate.is_proven - _WARNED * self.candidate.is_linted
-        change = self.toll + _FAR * self.candidate.far + seen
-        return self.spoilt + 1.0 - self.helped / self.missions + _UNTRIED * self.is_untried, change, self.cost
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Loose:
-    """A variable that too few lines speak of, or a constant that `is_unread` or `is_unset`: a line may be missing.
-
-    `is_uneven`: the other branch of a condition sets the variable. `doubt`: how far off it is, and how usual.
-    """
-
-    candidate: Candidate
-    variable: str
-    is_unread: bool = False
-    is_uneven: bool = False
-    is_unset: bool = False
-    doubt: float = 0.0
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Trials:
-    """All that was tried for one fault: `causes` are ranked, one for each line."""
-
-    causes: tuple[LineTrial, ...]
-    suspects: tuple[Candidate, ...]  # lines in the order of suspicion, tried or not
-    lines: int  # that were tried
-    flights: int
-    ended: TrialsEnd
-    loose: tuple[Loose, ...] = ()
 
 
 def try_out(
@@ -241,10 +159,11 @@ def try_out(
     trials.resume()
     ranked = sorted(best.values(), key=lambda one: one.weight)
     confirmed: list[LineTrial] = []
-    while ranked and sum(one.is_clean for one in confirmed) < _CONFIRMED:
+    while ranked and sum(one.is_clean for one in confirmed) < _CONFIRMED and not trials.is_over:
         trial = ranked.pop(0)
         trials.resume()  # what was kept for it is left
         confirmed.append(trials.confirmed(trial, helping[trial.candidate.site], usage))
+        trials.is_confirmed |= confirmed[-1].is_clean and confirmed[-1].is_small
     ranked = sorted([*confirmed, *ranked], key=lambda one: one.weight)
     ended = trials.ended or trials.cut or (TrialsEnd.FLIGHTS if turns else TrialsEnd.COMPLETE)
     lines = len({site for site, _ in tried})
@@ -281,7 +200,7 @@ def _is_gain(edit: SmallEdit, known: LineTrial) -> bool:
 
 def _small(best: Mapping[EditSite, LineTrial]) -> int:
     """How many lines make the mission pass with all its goals, by a change that takes no demand away."""
-    return sum(one.toll < HEAVY and not one.candidate.takes_away(one.edit) for one in best.values())
+    return sum(one.is_small for one in best.values())
 
 
 class _Trials:
@@ -293,6 +212,8 @@ class _Trials:
         self.is_lost = False  # whether the last flight was given up
         self.ended: TrialsEnd | None = None
         self.cut: TrialsEnd | None = None  # where time was over for a part of the trials
+        self.is_doubted = self.is_confirmed = False  # a cause does not help all missions, or does
+        self.has_more = False  # there are flights beyond the usual, to find one that does
         self._watch = Stopwatch(bounds.spent)
         self._slowest: float | None = None
 
@@ -314,6 +235,18 @@ class _Trials:
         if self.ended is not TrialsEnd.FLIGHTS or not self.bounds.further:
             return False
         self.bounds, self.ended = self.bounds.lengthened(), None
+        return True
+
+    @property
+    def is_over(self) -> bool:
+        """Whether flights beyond the usual have shown what they were made for."""
+        return self.has_more and self.is_confirmed
+
+    def _may_confirm(self, reserve: int = 0) -> bool:
+        """The same for flights of other missions; where one change did not help in all, until another one has."""
+        if self.may_go_on(reserve) or self.is_confirmed or not self.is_doubted or not self.lengthen():
+            return self.ended is None
+        self.has_more = True
         return True
 
     def resume(self) -> None:
@@ -350,7 +283,7 @@ class _Trials:
 
         Tried are those that were `helping` the first mission already, and others that change about as much.
         """
-        if not self.may_go_on():
+        if not self._may_confirm():
             return trial
         found, against = self._on_others(trial)
         if against is None:
@@ -359,7 +292,7 @@ class _Trials:
         known = {one.edit: one for one in helping if one.edit != trial.edit}
         others = dict.fromkeys((*known, *alternatives(trial.edit, site, usage)))
         for edit in sorted(others, key=lambda one: (trial.candidate.takes_away(one), cost_of(one, site, usage))):
-            if not self.may_go_on(0 if edit in known else 1) or self.fly(edit, against).verdict is not Verdict.PASS:
+            if not self._may_confirm(0 if edit in known else 1) or self.fly(edit, against).verdict is not Verdict.PASS:
                 continue
             other = known.get(edit)
             if other is None and (result := self.fly(edit, self.missions.failed[0])).verdict is Verdict.PASS:
@@ -379,14 +312,15 @@ class _Trials:
         for mission in self.missions.passed:
             if mission is known:
                 continue
-            if not self.may_go_on():
+            if not self._may_confirm():
                 break
             if self.fly(trial.edit, mission).verdict is not Verdict.PASS:
+                self.is_doubted = True
                 return replace(trial, spoilt=1), mission
         for mission in self.missions.failed[1:]:
             if mission is known:
                 helped, missions = helped + 1, missions + 1
-            elif self.may_go_on():
+            elif self._may_confirm():
                 result = self.fly(trial.edit, mission)
                 missions += 1
                 if result.verdict is Verdict.PASS:
@@ -394,5 +328,5 @@ class _Trials:
                     less = strayed_of(result, mission) + voided_of(result, mission)
                     damage = max(damage, self.missions.damage_of(result, mission) + less)
                 else:
-                    against = against or mission
+                    against, self.is_doubted = against or mission, True
         return replace(trial, damage=damage, helped=helped, missions=missions), against

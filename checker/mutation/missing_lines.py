@@ -18,6 +18,7 @@ _OTHER_TIME = re.compile(r"\b\w+\.(?:start|end)\b")
 _ENDING = re.compile(
     r"^\s*(?:ends|equals|meets)\s*\(|\bthis\s+(?:ends|equals|meets)\b|\b(?:ends|equals|met_by)\s+this\b"
 )
+_ORDER = re.compile(r"(<=|>=|<|>)")
 _USE = re.compile(r"\s*\w+\.time\s*==")
 _COMMENT = re.compile(r"//[^\n]*")
 _ADDED = re.compile(r" \w+\.(\w+) == (?:\w+\.)*(\w+);")
@@ -75,14 +76,24 @@ def _gaps(rule: str) -> list[tuple[str, str]]:
 def _is_ended(rule: str) -> bool:
     """Whether a line of a rule says when its token ends: an upper bound alone only says when it must be over.
 
-    What a resource is used at the end of is told by that end, and does not tell it.
+    What a resource is used at the end of is told by that end, and does not tell it; what begins by then waits for it.
     """
     for line in re.split("[;{}]", _COMMENT.sub("", rule)):
-        if _OWN_END.search(line) and ("==" in line or _OTHER_TIME.search(line)) and not _USE.match(line):
+        is_tied = "==" in line or (_OTHER_TIME.search(line) and not _waits(line))
+        if _OWN_END.search(line) and is_tied and not _USE.match(line):
             return True
         if _ENDING.search(line):
             return True
     return False
+
+
+def _waits(line: str) -> bool:
+    """Whether a line only says that the own end comes no sooner than something: `next.start <= end + TURN_MAX`."""
+    sides = _ORDER.split(line)
+    if len(sides) != 3:
+        return False
+    smaller, larger = (sides[0], sides[2]) if sides[1].startswith("<") else (sides[2], sides[0])
+    return _OWN_END.search(larger) is not None and _OWN_END.search(smaller) is None
 
 
 def is_namesake(added: str) -> bool:

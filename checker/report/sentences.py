@@ -2,7 +2,7 @@
 
 from collections import Counter
 
-from checker.counterfactual.trials import TrialsEnd
+from checker.counterfactual.tried import TrialsEnd
 from checker.findings import Ending, Findings, regressed
 from checker.limits import Limit
 from checker.oracle import CODE_NAMES, OUT_OF_TIME, USER_CODE, Verdict

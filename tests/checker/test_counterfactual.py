@@ -17,7 +17,7 @@ from checker.counterfactual.missions import Missions
 from checker.counterfactual.ranking import Causes, Claim, rank
 from checker.counterfactual.rendering import causes_data, claim_text, effort_text
 from checker.counterfactual.search import Suspended, find_causes, sites_in
-from checker.counterfactual.trials import TrialsEnd
+from checker.counterfactual.tried import TrialsEnd
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.variant import load_over

@@ -11,7 +11,8 @@ from checker.counterfactual.effort import Bounds
 from checker.counterfactual.missions import Missions
 from checker.counterfactual.ranking import rank
 from checker.counterfactual.rendering import effort_text
-from checker.counterfactual.trials import Trials, TrialsEnd, try_out
+from checker.counterfactual.trials import try_out
+from checker.counterfactual.tried import Trials, TrialsEnd
 from checker.counterfactual.usage import usage_of
 from checker.oracle import Verdict
 from tests.checker.test_trials import result, sites

@@ -11,6 +11,7 @@ from checker.counterfactual.usage import usage_of
 from checker.mutation.choice import mutants_of
 from checker.mutation.edits import sites_of
 from checker.mutation.kinds import EditKind
+from checker.mutation.successors import with_successors
 from checker.mutation.variant import load_graph
 from tests.checker.checked import faults_of
 
@@ -116,6 +117,64 @@ def test_a_token_that_is_asked_for_anyhow_and_never_mentioned_is_one_that_anothe
     assert list(added(tmp_path, with_end)) == ["bore meets off;", "off meets bore;"]
     assert added(tmp_path, with_end.replace("off);", "off);\n  bore before off;")) == {}
     assert added(tmp_path, with_end.replace("any(Drill.Stowed", "any(Site.Nothing")) == {}
+
+
+def test_what_only_waits_for_the_end_does_not_say_when_that_is(tmp_path: Path) -> None:
+    gone = "  bore.end == end;\n"
+    for line in ("any(Drill.Stowed off); off.start <= end + 3;", "any(Drill.Stowed off); end + 3 >= off.start;"):
+        assert "bore.end == end;" in added(tmp_path, CHIEF.replace(gone, f"  {line}\n"))
+    assert "bore.end == end;" not in added(
+        tmp_path, CHIEF.replace(gone, "  any(Drill.Stowed off); end <= off.start + 3;\n")
+    )
+
+
+LIFT = """#include "TREX.nddl"
+class Lift extends AgentTimeline {
+  predicate Down { }
+  predicate Rise { int floor; int top; }
+  predicate Hold { int floor; }
+  predicate Sink { int floor; }
+  Lift(Mode m) { super(m, "Down"); }
+}
+Lift::Rise {
+  duration == 3;
+  if (floor < top) { meets(object.Rise next); next.floor == floor + 1; next.top == top; }
+  else { meets(object.Hold top_floor); }
+}
+Lift::Hold { duration == 9; meets(object.Sink sink); }
+Lift::Sink { duration == 5; meets(object.Down down); }
+"""
+
+
+def following(folder: Path, text: str) -> dict[str, list[str]]:
+    """The lines of a model that have edits of what comes next, each with what it may be."""
+    (folder / "lift.nddl").write_text(text, encoding="utf-8")
+    sites = sites_of(load_graph(folder / "lift.nddl", ()))
+    known = {edit for site in sites for edit in site.edits}
+    more = {
+        site.text: [site.after(edit) for edit in site.edits if edit not in known] for site in with_successors(sites)
+    }
+    return {line: texts for line, texts in more.items() if texts}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        (" meets(object.Sink sink);", "", {"duration == 9;": ["Sink", "Down", "Rise"]}),
+        ("floor + 1", "floor", {"next.floor == floor;": ["next.floor == floor + 1;"]}),
+        ("floor + 1", "floor + 2", {}),
+    ],
+)
+def test_what_comes_next_is_tried_as_other_rules_of_the_class_say_it(
+    old: str, new: str, expected: dict[str, list[str]], tmp_path: Path
+) -> None:
+    assert following(tmp_path, LIFT) == {}
+    found = following(tmp_path, LIFT.replace(old, new))
+    lines = {
+        key: [f"{key} meets(object.{one} following);" if one.isalpha() else one for one in value]
+        for key, value in expected.items()
+    }
+    assert {key: sorted(value) for key, value in found.items()} == {key: sorted(value) for key, value in lines.items()}
 
 
 def faults(folder: Path, capsys: pytest.CaptureFixture[str], gone: str) -> list[dict[str, Any]]:

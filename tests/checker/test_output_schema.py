@@ -17,7 +17,7 @@ from checker.batch.worker import Load
 from checker.campaign import Campaign
 from checker.conditions.condition import Extreme
 from checker.counterfactual.ranking import Claim
-from checker.counterfactual.trials import TrialsEnd
+from checker.counterfactual.tried import TrialsEnd
 from checker.excerpts import Excerpts
 from checker.findings import Ending
 from checker.graph import NodeKind

@@ -6,7 +6,7 @@ import pytest
 
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.ranking import Claim, rank
-from checker.counterfactual.trials import LineTrial, Loose, Trials, TrialsEnd
+from checker.counterfactual.tried import LineTrial, Loose, Trials, TrialsEnd
 from checker.mutation.edits import EditSite, SmallEdit
 from checker.mutation.kinds import EditKind
 

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from checker.counterfactual.ranking import Causes
-from checker.counterfactual.trials import TrialsEnd
+from checker.counterfactual.tried import TrialsEnd
 from checker.findings import Ending
 from checker.sought import read_sought, write_sought
 

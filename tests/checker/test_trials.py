@@ -13,7 +13,8 @@ from checker.counterfactual.damage import ALIKE, HEAVY, collapsed_of, voided_of
 from checker.counterfactual.effort import Bounds
 from checker.counterfactual.missions import Missions
 from checker.counterfactual.smallness import cost_of, delay_of
-from checker.counterfactual.trials import LineTrial, Trials, Try, try_out
+from checker.counterfactual.trials import Try, try_out
+from checker.counterfactual.tried import LineTrial, Trials
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import usage_of
 from checker.losses import GoalEnd, GoalFate, Losses
@@ -59,14 +60,21 @@ def result(number: int, verdict: Verdict) -> MissionResult:
     return MissionResult(number, number, Judgement(verdict, "F3"), Outcome(number, 90, 200, None, (), (), ()), True)
 
 
-def tried(found: dict[str, EditSite], texts: Sequence[str], fly: Try, failed: int = 3, passed: int = 1) -> Trials:
+def tried(
+    found: dict[str, EditSite],
+    texts: Sequence[str],
+    fly: Try,
+    failed: int = 3,
+    passed: int = 1,
+    bounds: Bounds | None = None,
+) -> Trials:
     """What trials at some lines tell of so many missions."""
     candidates = [Candidate(found[text], 0.0, Suspicion.CONFLICT) for text in texts]
     missions = Missions(
         [result(number, Verdict.FAIL) for number in range(1, failed + 1)],
         [result(100 + number, Verdict.PASS) for number in range(passed)],
     )
-    return try_out(candidates, missions, usage_of(list(found.values())), fly, Bounds())
+    return try_out(candidates, missions, usage_of(list(found.values())), fly, bounds or Bounds())
 
 
 def test_of_a_line_the_edit_that_helps_all_missions_is_told_and_was_flown_in_each(tmp_path: Path) -> None:
@@ -90,6 +98,20 @@ def test_an_edit_that_spoils_what_passed_gives_way_to_one_that_does_not(tmp_path
 
     (cause,) = tried(sites(tmp_path), ["GRACE = 0;"], fly, failed=2).causes
     assert (cause.edit.new, cause.helped, cause.missions, cause.spoilt) == ("1", 2, 2, 0)
+
+
+@pytest.mark.parametrize(("further", "helped"), [(0, 1), (20, 3)])
+def test_flights_go_on_until_a_change_helps_in_all_missions(further: int, helped: int, tmp_path: Path) -> None:
+    """The usual ones are over as soon as the smallest change is known to help the first mission alone."""
+
+    def fly(edit: SmallEdit, mission: MissionResult, _: float) -> MissionResult:
+        helps = {"65": (1,), "600": (1, 2, 3)}.get(edit.new, ())
+        return result(mission.number, Verdict.PASS if mission.number in helps else Verdict.FAIL)
+
+    found = tried(sites(tmp_path), ["SPAN = 60;"], fly, passed=0, bounds=Bounds(6, further=further))
+    (cause,) = found.causes
+    assert cause.helped == helped
+    assert found.flights <= 6 + further
 
 
 def cheapest(site: EditSite, found: dict[str, EditSite], kind: EditKind) -> float:
