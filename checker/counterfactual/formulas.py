@@ -40,6 +40,7 @@ class Formulas:
 
     def __init__(self, sites: Sequence[EditSite], constants: Container[str]) -> None:
         self._constants = constants
+        self._rates = {site.named for site in sites if site.is_rate}  # by their comments
         lines = [list(self._pairs(site.text)) for site in sites]
         self._same = Counter(_plain(*pair) for pairs in lines for pair in pairs)
         self._sorts = Counter((self._sort(pair), pair[1]) for pairs in lines for pair in pairs)
@@ -110,7 +111,8 @@ class Formulas:
     def _sort(self, pair: _Pair) -> str:
         kinds = {self._kind(pair[0]), self._kind(pair[2])}
         sort = next(one for one in (_ROUND, _NUMBER, _CONSTANT, _NAME) if one in kinds)
-        is_scale = any(one in self._constants and _SCALING.search(one) is not None for one in (pair[0], pair[2]))
+        named = [one for one in (pair[0], pair[2]) if one in self._constants]
+        is_scale = any(one in self._rates or _SCALING.search(one) is not None for one in named)
         return _SCALE if is_scale and sort == _CONSTANT else sort
 
     def _kind(self, word: str) -> str:

@@ -18,6 +18,7 @@ _NUMBERS = ("int ", "float ")
 _DECLARED = re.compile(r"\w+\s+(\w+)\s*(?:=(.*))?;", re.DOTALL)
 _OBJECT = re.compile(r"(\w+)\s+(\w+)\s*;")
 _SET = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==")
+_ORDER = re.compile(r"[<>]")
 _END = re.compile(r"\b(?:start|end)\b")
 _LABELLED = re.compile(r"\(\s*([A-Za-z_][\w.]*)\s+(\w+)\s*\)")
 _LOCAL, _CHILD = 1.5, 0.5  # what a mention of a local variable counts, and of a parameter of another token
@@ -142,6 +143,12 @@ class Mentions:
                 return not self.is_set_by(edit, site)
         is_local = edit.old in self._locals[_scope(site)]
         return is_local and self.is_set_by(edit, site) and self._lacks(edit.old, site, True, 1)
+
+    def compares_label(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether an edit writes what only tells tokens apart into a line that compares which is larger."""
+        label, _, parameter = edit.new.rpartition(".")
+        predicate = self._predicates[_scope(site)].get(label, "") if label else site.rule.rpartition(".")[2]
+        return (predicate, parameter) in self._labels and _ORDER.search(compared(site.text)) is not None
 
     def frees(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether nothing says any more what a local variable is: `rest <= ceil(storing)` for `==`."""

@@ -13,6 +13,8 @@ from checker.mutation.kinds import EditKind
 _LATER = re.compile(r"\s*(\w+)\.start\s*[<>]=?\s*(\w+)\.end\b.*;", re.DOTALL)
 _SINCE_START = re.compile(r"\s*(\w+)\.start\s*<=?\s*(\w+)\.start\s*\+.*;", re.DOTALL)
 _ORDERED = re.compile(r"\s*(\w+)\s+(before|after|meets|met_by)\s+(\w+)\s*;")
+_WAIT = re.compile(r"\s*(\w+)\.end\b[^<>=]*<=?\s*(\w+)\.start\b[^<>=]*;", re.DOTALL)
+_WAITED = re.compile(r"\s*(\w+)\.start\b[^<>=]*>=?\s*(\w+)\.end\b[^<>=]*;", re.DOTALL)
 _MADE = re.compile(r"(?:contains|starts|ends|any)\s*\(\s*[\w.]+\s+(\w+)\s*\)")
 _TURNED = ("after", "met_by")
 
@@ -40,8 +42,8 @@ class Orders:
         related |= {(one, other) for one in before for other in after}
 
     def as_written(self, edit: SmallEdit, site: EditSite) -> int:
-        """1 where a relation has two tokens in the order then in which the rule asks for them, -1 if it had before."""
-        before, after = _order(site.text), _order(site.after(edit))
+        """1 where a line has two tokens in the order then in which the rule asks for them, -1 if it had before."""
+        before, after = (_order(text) or _order_by_times(text) for text in (site.text, site.after(edit)))
         if before is None or after is None or before == after:
             return 0
         made = self._made[site.file, site.scope]
@@ -73,9 +75,16 @@ class Orders:
 
 
 def is_order_turned(edit: SmallEdit, site: EditSite) -> bool:
-    """Whether a relation of two named tokens says the same with the tokens swapped."""
+    """Whether a relation of two named tokens, or a limit of their times, says the same with the tokens swapped."""
     is_between = edit.kind is EditKind.RELATION and edit.begin > site.begin
-    return is_between and edit.new == inverse_of(edit.old) != edit.old
+    return edit.kind is EditKind.TURN or (is_between and edit.new == inverse_of(edit.old) != edit.old)
+
+
+def _order_by_times(text: str) -> tuple[str, str] | None:
+    """Two tokens, the one first after whose end the other one begins."""
+    if (found := _WAIT.fullmatch(text)) is not None:
+        return found.group(1), found.group(2)
+    return (found.group(2), found.group(1)) if (found := _WAITED.fullmatch(text)) is not None else None
 
 
 def _order(text: str) -> tuple[str, str] | None:

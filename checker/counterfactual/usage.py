@@ -2,9 +2,9 @@
 
 import math
 import re
-from collections import Counter
-from collections.abc import Container, Sequence
-from dataclasses import dataclass
+from collections import Counter, defaultdict
+from collections.abc import Container, Mapping, Sequence
+from dataclasses import dataclass, field
 
 from checker.counterfactual.affinity import WORD, Affinity, is_kin
 from checker.counterfactual.bounds import Directions
@@ -22,6 +22,8 @@ from checker.mutation.kinds import EditKind
 from checker.mutation.labels import Label
 
 _LABEL = re.compile(r"\s+(\w+)\s*\)")
+_MESSAGE = re.compile(r"(.*):\s*\"([^\"]*)\"\s*;\s*", re.DOTALL)
+_NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?")
 _MADE = re.compile(r"\bnew\s+\w+\s*\(([^()]*)\)")
 _WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
 _NAMED = 2.0  # odds of the comparison that a constant's name asks for
@@ -32,7 +34,7 @@ _PRESENT, _MOST_PRESENT = 0.2, 3  # for each line that speaks of a predicate, an
 _AGREES = 1.5  # odds that both sides of `==` are of one type
 _TURNED = 2.5  # odds of a relation of two named tokens that says the same with the tokens swapped
 _UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
-_MERGED = 2.5  # of two objects that have a member in common then
+_MERGED = 2.5  # of two objects that have a member in common then, and of what only tells tokens apart and is compared
 _SUM = 1.5  # how much the odds count of a sign that stands between the same words elsewhere
 _RARE = 0.3  # all other words
 # Odds of a change that puts the dimensions of a line right, and of one that makes them odd; other kinds tell nothing.
@@ -68,11 +70,16 @@ class Usage:
     distinct: Distinct
     dimensions: Dimensions
     made: Container[str] = ()  # the numbers and names that objects are made of
+    messages: Mapping[str, Container[float]] = field(default_factory=dict)  # numbers, by constants of the same line
     passing: float = 0.0
 
     def is_of_object(self, edit: SmallEdit) -> bool:
         """Whether objects are made of what an edit writes, and none of what stood there."""
         return edit.new.strip('"') in self.made and edit.old.strip('"') not in self.made
+
+    def is_stated(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether a comment, or what a line that reads a constant says where it fails, names the number as it is."""
+        return edit.begin in site.stated or float(edit.old) in self.messages.get(site.named, ())
 
     def is_swapped(self, edit: SmallEdit) -> bool:
         """Whether a constant stands where another one is missed, or the range of a draw where a number is meant."""
@@ -147,7 +154,7 @@ class Usage:
         """How much better a name fits into a line than the old one: by what lacks a mention, and by likeness."""
         if edit.new in self.sampled or self.mentions.unsets(edit, site):
             return _UNMEANT
-        if self.mentions.merges(edit, site):
+        if self.mentions.merges(edit, site) or self.mentions.compares_label(edit, site):
             return -_MERGED
         weight = _MENTION if edit.kind is EditKind.NAME else 0.5 * _MENTION
         gain = weight * self.mentions.gain(edit, site)
@@ -205,8 +212,26 @@ def usage_of(
     mentions = Mentions(sites, named, counts, labels)
     directions = Directions(sites, named, is_late=is_late)
     made = {one.strip(' "') for site in sites for found in _MADE.findall(site.text) for one in found.split(",")}
+    messages: dict[str, set[float]] = defaultdict(set)
+    for site in sites:
+        if (said := _MESSAGE.fullmatch(site.text)) is not None:
+            for name in WORD.findall(said.group(1)):
+                messages[name] |= {float(one) for one in _NUMBER.findall(said.group(2))}
     lines = (Formulas(sites, named), Orders(sites), Siblings(sites), TimeLimits(sites), Distinct(sites))
     affinity, dimensions = Affinity(sites, named), Dimensions(sites, named)
     return Usage(
-        counts, named, kinds, meant, sampled, affinity, sums, mentions, directions, *lines, dimensions, made, passing
+        counts,
+        named,
+        kinds,
+        meant,
+        sampled,
+        affinity,
+        sums,
+        mentions,
+        directions,
+        *lines,
+        dimensions,
+        made,
+        messages,
+        passing,
     )

@@ -1,4 +1,6 @@
-"""A statement in, the numbers out that comments name beside it: in its line, right above it, and above its rule."""
+"""A statement in; out: the numbers that comments name beside it, in its line, right above it and above its rule, and
+whether they say that it is so much per something.
+"""
 
 import re
 from collections.abc import Iterator
@@ -7,6 +9,7 @@ from nddl_lang.text.source import Source, Span
 
 _NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?")
 _WORD = re.compile(r"[a-z]+")
+_PER = re.compile(r"\bper\b", re.IGNORECASE)
 _COMMENT = re.compile(r"\s*///?(.*)")
 # Without `one`, which counts nothing in `one value per mission`.
 _NAMED = {
@@ -40,6 +43,13 @@ def numbers_beside(statement: Span, whole: Span) -> frozenset[float]:
     return frozenset(
         found | {float(_NAMED[one]) for text in said for one in _WORD.findall(text.lower()) if one in _NAMED}
     )
+
+
+def tells_rate(statement: Span) -> bool:
+    """Whether a comment beside a statement speaks of so much per something: `Tonnes per tick`."""
+    source = statement.source
+    said = [source.line(statement.line).partition("//")[2], *_above(source, statement.line)]
+    return any(_PER.search(text) is not None for text in said)
 
 
 def _above(source: Source, line: int) -> Iterator[str]:

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from checker.mutation.agreement import Agreement
-from checker.mutation.comments import numbers_beside
+from checker.mutation.comments import numbers_beside, tells_rate
 from checker.mutation.copies import copied_names, said_before
-from checker.mutation.exchanges import exchangeable, exchanged, misplaced, recast, shortened
+from checker.mutation.exchanges import exchangeable, exchanged, misplaced, recast, shortened, turned
 from checker.mutation.kinds import NUMERIC, EditKind
 from checker.mutation.missing_lines import missing_lines
 from checker.mutation.names import other_names, other_points, other_tokens, other_values, tautologies
@@ -61,7 +61,7 @@ _OTHER_SIGNS = {
     "!=": ("==",),
 }
 _OTHER_NAMES = {"leq": ("eq", "lt"), "lt": ("leq", "eq"), "eq": ("leq", "neq"), "neq": ("eq",)}
-_OUTSIDE = LineScope()  # of a rule
+_OUTSIDE = LineScope()
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +87,8 @@ class EditSite:
     `is_apart`: the two can hardly be compared. `wanted` edits, given alike, make of a copy what it was copied for.
     `unlike` edits, given alike, write a whole number for a real one, or the other way round, unless they agree; of a
     goal, a number beyond those of the other goals, where it lies among them.
-    `noted` edits, given alike, write a number that a comment names, where it does not name the one that stands there.
+    `noted` edits, given alike, write a number that a comment names, where it does not name the one that stands there;
+    where it does, that is `stated`, by its offset. `is_rate`: a comment says that what is set is so much per something.
     `inputs` are the numbers, each with its type, that the token of a rule brings along, told at its head.
     `coded` is the constraint of the project's own that it calls, in Python. `is_check`: a conflict shows that it only
     compares what others give.
@@ -113,6 +114,8 @@ class EditSite:
     inputs: tuple[tuple[str, str], ...] = ()
     is_check: bool = False
     noted: frozenset[tuple[int, str]] = frozenset()
+    stated: frozenset[int] = frozenset()
+    is_rate: bool = False
 
     def holds(self, file: str, line: int) -> bool:
         """Whether a place is one of its lines."""
@@ -157,9 +160,7 @@ class _Reader:
         self._limits = sorted(name for name, kind in names.items() if kind in _NUMBERS)
         self._scopes = Scopes(loaded.module.statements, self._limits)
         self._types = Agreement(names)
-        self._copied: frozenset[tuple[int, str]] = (
-            frozenset()
-        )  # of the rule that is read, what was not changed in copies
+        self._copied: frozenset[tuple[int, str]] = frozenset()  # not changed when the rule that is read was copied
 
     def sites(self, statement: Any) -> Iterator[EditSite]:
         """The sites of a top-level statement."""
@@ -217,8 +218,7 @@ class _Reader:
                 case CallConstraint() | ExprConstraint() | Relation() | VariableDecl() | Assignment():
                     behind = self._scopes.after(names, statement)
                     made = {label: shape for label, shape in behind.tokens.items() if label not in names.tokens}
-                    lines = missing_lines(statement, whole, behind, made)
-                    more = [self._edit(EditKind.LINE, span, new) for span, new in lines]
+                    more = [self._edit(EditKind.LINE, *one) for one in missing_lines(statement, whole, behind, made)]
                     more += [self._edit(EditKind.SWAP, span, new) for span, new, _ in self._rows.get(statement, ())]
                     yield self._site(statement, rule, whole, (statement,), more=more, names=names)
                     names = behind
@@ -238,14 +238,12 @@ class _Reader:
         edits = [edit for root in roots for edit in self._edits(root, names)]
         if isinstance(node, (CallConstraint, ExprConstraint)):
             edits.append(self._edit(EditKind.DROPPED_CONSTRAINT, node.span, _blank(node.span.text)))
-        last = _lines(node.span)[1]
-        agreeing = self._agreeing(node, names, edits)
-        file = self._files[node.span.source]
+        told = numbers_beside(node.span, whole)
         return EditSite(
-            file,
+            self._files[node.span.source],
             node.span.line,
             node.span.column,
-            last,
+            _lines(node.span)[1],
             rule,
             _lines(whole),
             node.span.text,
@@ -254,11 +252,13 @@ class _Reader:
             begin=node.span.begin,
             is_number=named in self._limits,
             coded=node.name.name if isinstance(node, CallConstraint) and node.name.name not in CONSTRAINTS else "",
-            agreeing=agreeing,
+            agreeing=(agreeing := self._agreeing(node, names, edits)),
             wanted=frozenset((edit.begin, edit.new) for edit in (*edits, *more)) & self._copied,
             unlike=frozenset((edit.begin, edit.new) for edit in edits if _is_unlike(edit, names)) - agreeing,
             is_apart=isinstance(node, ExprConstraint) and self._types.is_apart(node.expression, names),
-            noted=_noted(edits, numbers_beside(node.span, whole)),
+            noted=_noted(edits, told),
+            stated=frozenset(edit.begin for edit in edits if edit.kind in NUMERIC and float(edit.old) in told),
+            is_rate=bool(named) and tells_rate(node.span),
         )
 
     def _agreeing(self, node: Any, names: LineScope, edits: Iterable[SmallEdit]) -> frozenset[tuple[int, str]]:
@@ -347,6 +347,7 @@ class _Reader:
                 if op in ("+", "*"):
                     yield EditKind.OPERATOR, span, "*" if op == "+" else "+"
                 yield from ((EditKind.ARGUMENTS, *each) for each in misplaced(node))
+                yield from ((EditKind.TURN, *each) for each in turned(node))
                 yield from ((EditKind.TERM, span, new) for span, new in shortened(node))
                 yield from ((EditKind.FORMULA, span, new) for span, new in recast(node))
             case UnaryExpr(op="-", operand=operand, span=span):
@@ -358,8 +359,8 @@ class _Reader:
                 yield EditKind.RELATION, relation.span, inverse_of(relation.name)
             case CallConstraint(name=name, arguments=arguments):
                 known = CONSTRAINTS.get(name.name)
-                for other_name in _OTHER_NAMES.get(known.name if known is not None else name.name, ()):
-                    yield EditKind.COMPARISON, name.span, other_name
+                others = _OTHER_NAMES.get(known.name if known is not None else name.name, ())
+                yield from ((EditKind.COMPARISON, name.span, one) for one in others)
                 for first, second in exchangeable(known, len(arguments)):
                     yield EditKind.ARGUMENTS, *exchanged(arguments[first], arguments[second])
             case CallExpr(arguments=arguments) if len(arguments) > 1:

@@ -3,12 +3,14 @@
 from collections.abc import Iterator
 
 from nddl_lang.semantics.constraints import ConstraintRow
-from nddl_lang.syntax.nodes import BinaryExpr, Expr, FloatLiteral, IntLiteral, PathExpr
+from nddl_lang.syntax.nodes import BinaryExpr, Expr, FloatLiteral, Identifier, IntLiteral, PathExpr
+from nddl_lang.syntax.walk import descendants
 from nddl_lang.text.source import Span
 
 _COMMUTING = ("addEq", "mulEq", "multEq", "eqSum", "eqProduct", "eqMinimum", "eqMaximum", "maxf", "minf")
 _OTHER_OPERATORS = {"+": "/", "-": "*/", "*": "-/", "/": "*-+"}  # beside those that mutants have
 _SINGLE = (PathExpr, IntLiteral, FloatLiteral)
+_ORDERS = ("<=", "<", ">=", ">")
 _FEW_ARGUMENTS = 3  # of a constraint whose result may be mistaken for an input
 
 
@@ -33,6 +35,22 @@ def misplaced(node: BinaryExpr) -> Iterator[tuple[Span, str]]:
                     yield exchanged(*sorted((factor, other), key=lambda each: each.span.begin))
 
 
+def turned(node: BinaryExpr) -> Iterator[tuple[Span, str]]:
+    """The limit by which one token begins after the end of another one, each in the place of the other."""
+    if node.op not in _ORDERS:
+        return
+    sides = [node.left, node.right] if node.op.startswith("<") else [node.right, node.left]
+    ends, starts = (_moments(side, name) for side, name in zip(sides, ("end", "start"), strict=True))
+    if len(ends) == len(starts) == 1 and ends[0].parts[0].name != starts[0].parts[0].name:
+        yield exchanged(*(each.parts[0] for each in sorted((*ends, *starts), key=lambda one: one.span.begin)))
+
+
+def _moments(side: Expr, name: str) -> list[PathExpr]:
+    """The starts, or ends, of tokens in an expression."""
+    paths = [one for one in descendants(side) if isinstance(one, PathExpr) and len(one.parts) == 2]
+    return [one for one in paths if one.parts[1].name == name]
+
+
 def shortened(node: BinaryExpr) -> Iterator[tuple[Span, str]]:
     """A sum, difference, product or quotient without one of its operands: a name or number, or a product in a sum."""
     if node.op not in _OTHER_OPERATORS:
@@ -54,7 +72,7 @@ def recast(node: BinaryExpr) -> Iterator[tuple[Span, str]]:
                 yield first.to(last), last.text + between + first.text
 
 
-def exchanged(first: Expr, second: Expr) -> tuple[Span, str]:
+def exchanged(first: Expr | Identifier, second: Expr | Identifier) -> tuple[Span, str]:
     """Two expressions, the first before the second, each in the place of the other."""
     between = first.span.source.text[first.span.finish : second.span.begin]
     return first.span.to(second.span), second.span.text + between + first.span.text

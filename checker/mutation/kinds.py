@@ -29,6 +29,7 @@ class EditKind(StrEnum):
     FORMULA = "formula"  # other operators of an expression
     MISSING = "missing term"  # a term or factor more, of what nothing reads
     LINE = "missing line"  # a line more, behind another one
+    TURN = "swapped tokens"  # of a limit by which one begins after the end of the other
     SWAP = "swapped lines"  # what two lines say, each in the place of the other
 
 
@@ -41,5 +42,6 @@ REPAIRS = (
     EditKind.FORMULA,
     EditKind.MISSING,
     EditKind.LINE,
+    EditKind.TURN,
     EditKind.SWAP,
 )  # tried as causes, and not made as faults

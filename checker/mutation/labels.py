@@ -16,7 +16,9 @@ Label = tuple[str, str]  # a predicate, without its class, and a parameter
 _SERIES = 3  # goals that each have a number of their own
 _PAIR = {1, 2}  # or two that are the first and the second: 5 of 5 such pairs in right models are names
 _LABELLED = re.compile(r"\(\s*([A-Za-z_][\w.]*)\s+(\w+)\s*\)")
-_SAME = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==\s*([A-Za-z_][\w.]*)\s*;")
+_SAME = re.compile(
+    r"\s*([A-Za-z_][\w.]*)\s*==\s*([A-Za-z_][\w.]*)\s*(?:\+\s*\d+\s*)?;"
+)  # one more, or 100 more, is one too
 _COMPUTES = re.compile(r"[-+*/<>]|\b(?!contains|any|starts|ends|meets|met_by|if)\w+\s*\(")
 _NAME = re.compile(r"[A-Za-z_]\w*(?:\.\w+)*")
 
@@ -43,7 +45,8 @@ def labels_of(goals: Sequence[GoalConfiguration], sites: Iterable[EditSite]) -> 
     computed = {
         _named(name, site, tokens)
         for site in lines
-        if not site.is_rule and _COMPUTES.search(site.text) and _LABELLED.search(site.text) is None
+        if not (site.is_rule or _SAME.fullmatch(site.text) or _LABELLED.search(site.text))
+        and _COMPUTES.search(site.text)
         for name in _NAME.findall(site.text)
     }
     return frozenset(found - computed)

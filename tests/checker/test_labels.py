@@ -50,7 +50,8 @@ missions = 1
 @pytest.mark.parametrize("numbers", [(1, 2, 3), (3, 1, 2), (1, 2), (1, 2, 4), (1, 2, 2), (2, 3), (1,)])
 def test_what_goals_are_counted_by_is_never_a_term(numbers: tuple[int, int, int], tmp_path: Path) -> None:
     goals = "".join(GOAL % (number, 50 + k, 200) for k, number in enumerate(numbers))
-    (tmp_path / "m.nddl").write_text(MODEL)
+    handed_on = "bake.loaf == number + 100;" if len(numbers) == 3 else "bake.loaf == number;"
+    (tmp_path / "m.nddl").write_text(MODEL.replace("bake.loaf == number;", handed_on))
     (tmp_path / "mission.toml").write_text(MISSION.replace("[check]", goals + "[check]"))
     mission, found = read_mission(tmp_path / "mission.toml")
     assert mission is not None, found
@@ -67,3 +68,6 @@ def test_what_goals_are_counted_by_is_never_a_term(numbers: tuple[int, int, int]
     name = next(edit for edit in limit.edits if (edit.kind, edit.old, edit.new) == (EditKind.NAME, "heat", "number"))
     usage = usage_of(sites, labels=labels)
     assert usage.fitness(name, limit) <= usage_of(sites).fitness(name, limit)
+    (compared,) = (one for one in sites if one.text == "bake.duration <= weight;")
+    name = next(edit for edit in compared.edits if edit.kind is EditKind.NAME and edit.new == "number")
+    assert (usage.fitness(name, compared) < -2.0) is is_counted

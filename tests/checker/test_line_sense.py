@@ -159,3 +159,62 @@ def test_a_product_that_fails_alike_does_not_speak_against_a_quotient(sites: lis
         turns.add(0.0, candidate, edit)
         turns.doubt(site, edit.begin)
     assert [turns.pop()[2] for _ in range(2)] == [times, renamed]
+
+
+CRANE = """#include "TREX.nddl"
+/// Tonnes%s that are counted on.
+float SLOWEST = 16.0;
+/// Ticks%s.
+int PAUSE = 24;
+class Crane extends AgentTimeline {
+  predicate Still { }
+  predicate Drain { float tonnes; }
+  predicate Fill { float tonnes; }
+  Crane(Mode m) { super(m, "Still"); }
+}
+class Work extends AgentTimeline {
+  predicate Idle { }
+  predicate Move { float tonnes; int ticks; }
+  Work(Mode m) { super(m, "Idle"); }
+}
+Work::Move {
+  contains(Crane.Drain drain);
+  contains(Crane.Fill fill);
+  fill.end + 3 <= drain.start;
+  duration <= tonnes / SLOWEST;
+  ticks <= PAUSE : "no more than %d ticks";
+}
+"""
+
+
+def crane_cost(
+    folder: Path, kind: EditKind, line: str, new: str, per: str = "", told: int = 7, said: str = ""
+) -> float:
+    """What it costs to write something into a line, by what comments and a message say."""
+    (folder / "m.nddl").write_text(CRANE % (per, said, told), encoding="utf-8")
+    found = sites_of(load_graph(folder / "m.nddl", ()))
+    usage = usage_of(found)
+    return min(cost_of(edit, site, usage) for site, edit in edits_of(found, kind, line) if edit.new == new)
+
+
+def edits_of(sites: list[EditSite], kind: EditKind, line: str) -> list[tuple[EditSite, SmallEdit]]:
+    return [(site, edit) for site in sites if site.text == line for edit in site.edits if edit.kind is kind]
+
+
+def test_what_a_comment_calls_so_much_per_something_is_hardly_added(tmp_path: Path) -> None:
+    line = "duration <= tonnes / SLOWEST;"
+    costs = [crane_cost(tmp_path, EditKind.FORMULA, line, "+", per=per) for per in ("", " per tick")]
+    assert costs[1] > costs[0] + 0.5
+
+
+@pytest.mark.parametrize(("told", "said"), [(24, ""), (7, ", 24 at most")])
+def test_a_number_that_a_comment_or_a_message_names_is_hardly_wrong(told: int, said: str, tmp_path: Path) -> None:
+    line = "int PAUSE = 24;"
+    costs = [crane_cost(tmp_path, EditKind.CONSTANT, line, "48"), 0.0]
+    costs[1] = crane_cost(tmp_path, EditKind.CONSTANT, line, "48", told=told, said=said)
+    assert costs[1] > costs[0] + 1.0
+
+
+def test_tokens_of_a_limit_come_in_the_order_in_which_they_are_asked_for(tmp_path: Path) -> None:
+    turned = crane_cost(tmp_path, EditKind.TURN, "fill.end + 3 <= drain.start;", "drain.end + 3 <= fill")
+    assert turned < crane_cost(tmp_path, EditKind.COMPARISON, "fill.end + 3 <= drain.start;", ">=") - 1.0
