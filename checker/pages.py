@@ -54,7 +54,7 @@ def explanations(
                 flyer.dismiss()  # it may be in the middle of a flight
             if told is None or watch.has_passed(_MOST_SECONDS):
                 break
-            flights = None if fault.causes.ended is TrialsEnd.COMPLETE else fault.causes.flights
+            flights = None if fault.causes.ended is TrialsEnd.COMPLETE else fault.causes.flights - fault.causes.beyond
             again = campaign.story(example, fault, results, told[0])
             page = page_text(again, told[0], findings.run_id, excerpts)
             found.append(Explanation(example.number, example.number == first, flights, sources, page))

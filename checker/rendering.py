@@ -46,6 +46,7 @@ from runtime.executive.rendering import (
     reason_text,
     token_text,
 )
+from runtime.plan.readout.names import VariableName
 from runtime.plan.readout.statements import Term
 
 _COMPARED = re.compile(r"[<>=!]")
@@ -272,7 +273,24 @@ def element_line(element: ConflictElement, is_tried: bool = False) -> str:
     is_told = element.kind is ElementKind.REQUEST or element.token is None  # whose it is, or that it does not matter
     if not is_told and element.token is not None and not element.names(element.token):
         text = f"{element.token}: {text}"
-    return text + (_TRIED_ORDER if is_tried else _ORIGINS.get(element.kind, ""))
+    return text + (_TRIED_ORDER if is_tried else _executed(element) or _ORIGINS.get(element.kind, ""))
+
+
+def _executed(element: ConflictElement) -> str:
+    """What the executive does with a token of its own, or that two tokens are one; empty for another order."""
+    says = element.says
+    if element.kind is not ElementKind.ORDER or not isinstance(says, Term):
+        return ""
+    match says.name, says.arguments:
+        case "bounds", (VariableName(name="start"), lower, upper) if lower == upper:
+            return " (as the executive begins it)"
+        case "bounds", (VariableName(name="end"), lower, upper):
+            return " (as the executive ends it)" if lower == upper else " (as it goes on)"
+        case "precedence", (VariableName(token=one) as first, VariableName(token=other) as second, 0):
+            is_one = one is not None and other is not None and one != other and one.predicate == other.predicate
+            return " (both are one token)" if is_one and first.name == second.name else ""
+        case _:
+            return ""
 
 
 def _is_half(element: ConflictElement) -> bool:

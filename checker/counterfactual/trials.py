@@ -167,7 +167,8 @@ def try_out(
     ranked = sorted([*confirmed, *ranked], key=lambda one: one.weight)
     ended = trials.ended or trials.cut or (TrialsEnd.FLIGHTS if turns else TrialsEnd.COMPLETE)
     lines = len({site for site, _ in tried})
-    return Trials(tuple(ranked), tuple(candidates), lines, trials.flights, ended)
+    beyond = max(trials.flights - bounds.flights, 0) if trials.has_more else 0
+    return Trials(tuple(ranked), tuple(candidates), lines, trials.flights, ended, beyond=beyond)
 
 
 def _by_turns(last: Sequence[Candidate]) -> list[tuple[Candidate, SmallEdit]]:

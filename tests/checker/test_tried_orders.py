@@ -2,8 +2,11 @@
 
 from pathlib import Path
 
-from checker.rendering import step_text
+from checker.rendering import element_line, step_text
 from checker.steps import StepKind
+from runtime.executive.outcome import ConflictElement, ElementKind
+from runtime.plan.readout.names import TokenName, VariableName
+from runtime.plan.readout.statements import Term
 from tests.checker.fault_study import faults_in, laid_out
 from tests.checker.told_steps import JOB_MISSION, failed_mission, steps_of
 
@@ -55,3 +58,31 @@ def test_an_order_of_what_happened_is_told_as_before(tmp_path: Path) -> None:
     told = [step_text(step, story) for step in story.steps if step.kind is StepKind.CAUSE]
     assert "Bridge.Down#1.end <= Bridge.Raising#26.start (by the order of tokens)" in told
     assert "Bridge.Up#10.end <= Bridge.Down#1.start (by an order of tokens that was tried in vain)" in told
+
+
+def test_what_the_executive_does_and_tokens_that_are_one_are_no_orders() -> None:
+    token, other, seen = (TokenName("Dev.Run", 2), TokenName("Job.Do", 1), TokenName("Dev.Run", 5))
+    start, end, its, ready = (
+        VariableName("start", "int", token),
+        VariableName("end", "int", token),
+        VariableName("start", "int", seen),
+        VariableName("end", "int", other),
+    )
+    told = [
+        element_line(ConflictElement(ElementKind.ORDER, None, "Dev.Run", token, term, (term,)))
+        for term in (
+            Term("bounds", (start, 6, 6)),
+            Term("bounds", (end, 9, 9)),
+            Term("bounds", (end, 12, 10**9)),
+            Term("precedence", (its, start, 0)),
+            Term("precedence", (start, ready, 0)),
+        )
+    ]
+    ends = [text[text.index(" (") + 2 : -1] for text in told]
+    assert ends == [
+        "as the executive begins it",
+        "as the executive ends it",
+        "as it goes on",
+        "both are one token",
+        "by the order of tokens",
+    ]
