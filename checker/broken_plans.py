@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Container, Sequence
 
 from checker.batch.result import MissionResult
-from checker.causes import Failed, failed_by
+from checker.causes import Failed, decided_at, failed_by
 from checker.culprit import culprit_of
 from checker.limits import Limit
 from checker.oracle import Verdict, given_up
@@ -26,15 +26,18 @@ def usual_breaking(results: Sequence[MissionResult]) -> frozenset[Breaking]:
 def broken_plan(result: MissionResult, usual: Container[Breaking] = frozenset()) -> Event | None:
     """The repair of a plan that broke before the mission ended, of those with a conflict and not `usual`, the first.
 
-    At the tick of the end a plan of who gave up broke by that; another one's broke before.
+    At the tick of the end a plan of who gave up broke by that; another one's broke before. What broke after a goal was
+    given up for good, or a property violated, has no part in that.
     Of a mission that fails as there were too many repairs, the first at the line where plans broke most often.
     """
     outcome = result.outcome
     if outcome is None:
         return None
-    abort = given_up(outcome)
+    abort, decided = given_up(outcome), decided_at(outcome)
+    violated = result.judgement.broken.tick if result.judgement.broken is not None else None
+    last = outcome.last_tick if violated is None else violated
     repairs = [
-        (event, (event.reactor, culprit_of(event.conflict).place))
+        (at, event, (event.reactor, culprit_of(event.conflict).place))
         for at, event in numbered(outcome.events)
         if event.kind is EventKind.RELAX
         and event.stage is RepairStage.KEEP_PAST
@@ -42,10 +45,11 @@ def broken_plan(result: MissionResult, usual: Container[Breaking] = frozenset())
         and (abort is None or (at < abort.event and (event.tick, event.reactor) != (abort.tick, abort.reactor)))
     ]
     if fails_by_repairs(result):
-        counts = Counter(at for _, at in repairs)
+        counts = Counter(at for *_, at in repairs)
         most = max(counts.values(), default=0)
-        return next((event for event, at in repairs if counts[at] == most), None)
-    return next((event for event, at in repairs if at not in usual), None)
+        return next((event for _, event, at in repairs if counts[at] == most), None)
+    before = [(event, at) for number, event, at in repairs if event.tick <= last and (decided < 0 or number < decided)]
+    return next((event for event, at in before if at not in usual), None)
 
 
 def blamed(result: MissionResult) -> Failed:

@@ -29,7 +29,7 @@ from checker.standing import Standing, StandingLines
 from checker.steps import Step, StepKind, without_repeats
 from checker.told_draws import acting_lines, draws_of, in_time, shown_tokens
 from checker.told_events import failed_owner, lost_events, promised_events, sent_requests
-from checker.waiting import kept_open_by, waited_for
+from checker.waiting import beside, held_up, kept_open_by, waited_for
 from runtime.executive.configuration import AgentConfiguration, CodeConfiguration, PropertyKind
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import (
@@ -125,13 +125,14 @@ def tell(
     dead = failed_owner(result.judgement, outcome)
     way = sorted([*way, *dead, *promised_events(result, outcome, agent)], key=lambda event: event.tick)
     wished = [[one] for one in _wished(outcome, agent, text)] if result.judgement.broken is not None else []
-    told = in_time(changes, _events(way, broken, outcome, text, taken), is_behind=True)
+    told = in_time(changes, _events(way, broken, outcome, agent, text, taken), is_behind=True)
     steps = [
         *in_time([*redrawn, *draws, *wished], told),
         *_with_askers(_as_tried(_conflict(conflict, confirmation), failed), outcome, text, taken),
         *_tried(failed),
         *_kept_open(outcome, agent),
         *(Step(StepKind.WAITING, None, one) for one in waited_for(outcome, agent)),
+        *(Step(StepKind.WAITING, at, one) for at, one in held_up(result.judgement.broken, broken, outcome, agent)),
         Step(StepKind.ABORT, ended, abort, abort.reason.raised if abort is not None else None),
     ]
     return Story(
@@ -210,6 +211,7 @@ def _events(
     way: Sequence[Event],
     broken: Event | None,
     outcome: Outcome,
+    agent: AgentConfiguration,
     text: ModelText | None,
     taken: Container[Branch] | None,
 ) -> Iterator[Step]:
@@ -223,6 +225,7 @@ def _events(
     before = [event for event in rest if event.tick <= broken.tick and event not in behind]
     yield from (Step(StepKind.EVENT, event.tick, event) for event in before)
     yield Step(StepKind.EVENT, broken.tick, broken)
+    yield from (Step(StepKind.WAITING, broken.tick, one) for one in beside(broken, outcome, agent))
     confirmation = confirm(broken.conflict, text) if broken.conflict is not None else None
     yield from _with_askers(_conflict(broken.conflict, confirmation, StepKind.BROKEN), outcome, text, taken)
     yield from (Step(StepKind.EVENT, event.tick, event) for event in rest if event not in before)

@@ -14,6 +14,7 @@ from checker.proofs.conflict import Finding, confirm
 from checker.proofs.places import text_of
 from checker.sampling.seeds import mission_seed
 from checker.steps import StepKind
+from checker.waiting import Waiting
 from nddl_lang.text.read import real_path
 from runtime.executive.events import single_events
 from runtime.executive.outcome import ElementKind, Event, EventKind
@@ -123,3 +124,23 @@ def test_what_goes_on_by_the_word_of_a_planner_leads_to_the_line_of_its_simulato
     repaired = [one for one in told if isinstance(one, Event) and one.kind is EventKind.RELAX]
     assert [one.reactor for one in repaired] == ["nav"] * repairs
     assert [step.kind for step in steps].count(StepKind.BROKEN) == repairs
+
+
+def test_what_was_under_way_when_something_was_to_be_reached_is_told_through_all_reactors(tmp_path: Path) -> None:
+    wanted = """
+[[property]]
+name = "surveyed"
+kind = "reached"
+timeline = "work"
+predicate = "Survey"
+by = 40
+"""
+    files = CHAIN | {"base.nddl": f'#include "shared.nddl"\nWork::Survey {{ {ASKS} }}\n{OWNED}'}
+    for name, text in files.items():
+        (tmp_path / name).write_text(text + wanted * (name == "mission.toml"))
+    given, failed = failed_mission(tmp_path, 1)
+    steps = [step for step in given.story(failed, None).steps if step.kind is StepKind.WAITING]
+    told = [
+        (step.tick, step.subject.predicate, step.subject.since) for step in steps if isinstance(step.subject, Waiting)
+    ]
+    assert told == [(40, "Go", 3), (40, "Run", 3)]

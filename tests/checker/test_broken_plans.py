@@ -6,15 +6,27 @@ import pytest
 
 from checker.batch.result import MissionResult
 from checker.batch.worker import fly_one
-from checker.broken_plans import usual_breaking
+from checker.broken_plans import broken_plan, usual_breaking
 from checker.campaign import Campaign
 from checker.excerpts import Excerpts
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.oracle import Verdict
+from checker.oracle import Judgement, Verdict
 from checker.pinned import pinned
 from checker.report.html import html_report
 from checker.steps import Step, StepKind
+from runtime.executive.outcome import (
+    Conflict,
+    Event,
+    EventKind,
+    OpenGoal,
+    Outcome,
+    Phase,
+    PropertyFate,
+    Reason,
+    ReasonKind,
+    RepairStage,
+)
 
 pytestmark = pytest.mark.once
 
@@ -142,3 +154,20 @@ def test_a_plan_that_did_not_break_is_not_told(tmp_path: Path) -> None:
     assert failed.verdict is Verdict.FAIL
     steps = given.story(failed, None).steps
     assert not texts(steps, StepKind.BROKEN) and texts(steps, StepKind.FAULT)
+
+
+@pytest.mark.parametrize(("violated", "given_up", "is_told"), [(None, 2, True), (None, 0, False), (40, 2, False)])
+def test_a_plan_that_broke_after_all_was_decided_has_no_part_in_it(
+    violated: int | None, given_up: int, is_told: bool
+) -> None:
+    reason = Reason(ReasonKind.REJECTED)
+    events = (
+        Event(3, Phase.DELIBERATE, EventKind.REJECT, "planner"),
+        Event(50, Phase.REPAIR, EventKind.RELAX, "planner", stage=RepairStage.KEEP_PAST, conflict=Conflict(())),
+        Event(70, Phase.DELIBERATE, EventKind.REJECT, "planner"),
+    )
+    goal = OpenGoal("work", "Task", (), reason, given_up)
+    broken = None if violated is None else PropertyFate("p", False, violated, -1.0)
+    outcome = Outcome(1, 90, 90, None, (), events, (goal,))
+    failed = MissionResult(1, 1, Judgement(Verdict.FAIL, "F10", broken=broken), outcome, True)
+    assert (broken_plan(failed) is not None) is is_told

@@ -12,9 +12,21 @@ from checker.models import load_models
 from checker.mutation.variant import load_over, open_over
 from checker.rendering import waiting_text
 from checker.sampling.seeds import mission_seed
-from checker.waiting import waited_for
+from checker.waiting import beside, waited_for
 from nddl_lang.text.read import real_path
-from runtime.executive.outcome import Event, EventKind
+from runtime.executive.configuration import AgentConfiguration, ReactorConfiguration
+from runtime.executive.outcome import (
+    Conflict,
+    ConflictElement,
+    ElementKind,
+    Event,
+    EventKind,
+    Outcome,
+    Phase,
+    Reason,
+    ReasonKind,
+)
+from runtime.plan.readout.names import TokenName
 from tests.checker.fault_study import faults_in, laid_out
 from tests.checker.told_steps import failed_mission
 
@@ -54,3 +66,19 @@ def test_what_was_asked_for_in_vain_is_told_with_what_rules_it_out(tmp_path: Pat
     lines = [step.place.text for step in steps if step.place is not None]
     assert {"minutes * 3", "duration <= RELEASE_MAX"} <= set(lines)
     assert [str(step.kind) for step in steps[-3:]] == ["event", "waiting", "abort"]
+
+
+@pytest.mark.parametrize(("kind", "expected"), [("observation", ["Lift on `crane`"]), ("shared end", [])])
+def test_what_was_under_way_is_told_beside_what_went_on_for_no_known_reason(kind: str, expected: list[str]) -> None:
+    planner = ReactorConfiguration("planner", "p.nddl", 0, 50, ("work",), ("boat", "crane", "mast"))
+    world = ReactorConfiguration("world", "w.nddl", 0, 1, ("boat", "crane", "mast"), ())
+    asked = [(1, "mast", "Raise"), (4, "boat", "Hold"), (6, "crane", "Lift"), (7, "mast", "Lower")]
+    events = [Event(t, Phase.DELIBERATE, EventKind.REQUEST, "planner", x, p, request=t) for t, x, p in asked]
+    events += [Event(t + 1, Phase.SYNCHRONISE, EventKind.OBSERVATION, "world", x, p) for t, x, p in asked[:3]]
+    events.sort(key=lambda one: one.tick)
+    element = ConflictElement(ElementKind(kind), None, "", None, None, ())
+    reason = Reason(ReasonKind.GOES_ON, TokenName("Boat.Hold", 3), tick=40, since=5)
+    broken = Event(40, Phase.REPAIR, EventKind.RELAX, "planner", reason=reason, conflict=Conflict((element,)))
+    outcome = Outcome(1, 90, 40, None, (), (*events, broken), ())
+    found = beside(broken, outcome, AgentConfiguration("m", "", 90, (planner, world)))
+    assert [waiting_text(one).partition(",")[0] for one in found] == expected
