@@ -13,6 +13,7 @@ from checker.counterfactual.examples import examples_of
 from checker.counterfactual.missions import Missions
 from checker.counterfactual.ranking import CANCELLED, NO_CAUSES, Causes, Claim, RankedLine
 from checker.oracle import Verdict
+from runtime.executive.outcome import SourcePlace
 
 _Found = TypeVar("_Found")
 
@@ -59,8 +60,8 @@ def faults_of(
     seeker: Seeker,
     let: Interruptible = uninterrupted,
 ) -> list[tuple[Bucket, Causes]]:
-    """The faults behind buckets, each with its causes: what the first cause of one mends, or the same line where it was
-    flown, is one. So is a bucket before that the first cause of a later one mends as well: it is then that of both.
+    """The faults behind buckets, each with its causes: what the first cause of one mends, or the same statement, where
+    it was flown, is one. So is a bucket before that the first cause of a later one mends as well: it is that of both.
 
     Where a signal ends the search, buckets that it did not come to are faults of their own.
     """
@@ -71,7 +72,7 @@ def faults_of(
         same = let(partial(_mended, found, by_number[bucket.example], seeker))
         if same is None and position < MOST_SOUGHT:
             causes = let(partial(seeker.causes, missions_of(bucket, results))) or CANCELLED
-            same = _at_one_line(found, causes)
+            same = _at_one_place(found, causes)
         if same is None:
             earlier = let(partial(_also_mended, found, causes, by_number, seeker)) or []
             joining = [bucket, *(one for one, _ in earlier)]
@@ -116,9 +117,13 @@ def _also_mended(
     return mended
 
 
-def _at_one_line(found: Sequence[tuple[Bucket, Causes]], causes: Causes) -> int | None:
+def _at_one_place(found: Sequence[tuple[Bucket, Causes]], causes: Causes) -> int | None:
     if causes.first is None or causes.first.change is None:  # what was not flown joins nothing
         return None
-    line = (causes.first.place.file, causes.first.place.line)
-    firsts = [one.first for _, one in found]
-    return next((k for k, one in enumerate(firsts) if one and (one.place.file, one.place.line) == line), None)
+    place = causes.first.place
+    return next((k for k, (_, one) in enumerate(found) if one.first and _is_same(one.first.place, place)), None)
+
+
+def _is_same(one: SourcePlace, other: SourcePlace) -> bool:
+    """Whether both are the same statement: a line may have several."""
+    return (one.file, one.line, one.column) == (other.file, other.line, other.column)

@@ -134,6 +134,24 @@ def test_a_later_cause_that_mends_a_group_before_is_that_of_both(claim: Claim, f
     assert firsts == ([(4, CONSTANT)] if is_one else [(3, LIMIT), (1, CONSTANT)])
 
 
+class UnlikeStub(WiderStub):
+    """A seeker of whose causes none mends what the others are of."""
+
+    def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
+        return False
+
+
+@pytest.mark.parametrize(("columns", "count"), [(0, 1), (9, 2)])
+def test_first_causes_at_one_statement_are_one_fault_and_two_on_one_line_are_not(columns: int, count: int) -> None:
+    results = fly(load_linked)
+    (bucket,) = group_failures(results)
+    groups = [replace(bucket, missions=(one,), parts=(one,)) for one in bucket.missions[:2]]
+    change = SmallEdit(EditKind.CONSTANT, "a.nddl", 0, 1, "1", "2", 1)
+    first = RankedLine(LIMIT, "", Claim.MENDS, change)
+    second = RankedLine(replace(LIMIT, column=LIMIT.column + columns), "", Claim.MENDS, change)
+    assert len(faults_of(groups, results, UnlikeStub(first, second, None))) == count
+
+
 def reflying(load: Load) -> Refly:
     return lambda agent, number, seed: fly_one(load(agent), Task(number, seed))
 
