@@ -135,6 +135,8 @@ def _report(agent: AgentConfiguration, flight: Flight) -> str:
     asked = sum(event.kind is EventKind.REQUEST and (event.request or 0) >= 0 for event in events)
     rejected = {event.request for event in events if event.kind is EventKind.REJECT and event.request is not None}
     back = len(rejected & set(achieved))
+    recalled = [event.request or 0 for event in events if event.kind is EventKind.RECALL]
+    taken_back = len({number for number in recalled if number < 0} - set(achieved))  # by the mission file
     lines.append(
         f"{name}, seed {flight.settings.seed}: {judgement.verdict.value}"
         f"{f' {judgement.code}' if judgement.code else ''} at tick {outcome.last_tick}\n"
@@ -142,9 +144,10 @@ def _report(agent: AgentConfiguration, flight: Flight) -> str:
     if judgement.verdict is not Verdict.PASS:
         lines.append(f"  {failure_text(judgement, refusal=missed_after(outcome))}\n")
     lines.append(
-        f"  goals achieved {done}, open {len(outcome.open_goals)}; requests between reactors {asked}, "
+        f"  goals achieved {done}, open {len(outcome.open_goals)}"
+        f"{f', recalled {taken_back}' if taken_back else ''}; requests between reactors {asked}, "
         f"rejected {counts[EventKind.REJECT]}{f' ({back} came back)' if back else ''}, "
-        f"refused {counts[EventKind.REFUSE]}, recalled {counts[EventKind.RECALL]}; repairs {counts[EventKind.RELAX]}\n"
+        f"refused {counts[EventKind.REFUSE]}, recalled {sum(number >= 0 for number in recalled)}; repairs {counts[EventKind.RELAX]}\n"
     )
     if outcome.abort is None and outcome.last_tick < agent.final_tick:
         awaited = len(agent.goals) - (done - achieved.count(None)) - len(outcome.open_goals)
