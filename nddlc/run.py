@@ -147,7 +147,8 @@ def _report(agent: AgentConfiguration, flight: Flight) -> str:
         f"  goals achieved {done}, open {len(outcome.open_goals)}"
         f"{f', recalled {taken_back}' if taken_back else ''}; requests between reactors {asked}, "
         f"rejected {counts[EventKind.REJECT]}{f' ({back} came back)' if back else ''}, "
-        f"refused {counts[EventKind.REFUSE]}, recalled {sum(number >= 0 for number in recalled)}; repairs {counts[EventKind.RELAX]}\n"
+        f"refused {counts[EventKind.REFUSE]}, recalled {sum(number >= 0 for number in recalled)}; "
+        f"repairs {counts[EventKind.RELAX]}\n"
     )
     if outcome.abort is None and outcome.last_tick < agent.final_tick:
         awaited = len(agent.goals) - (done - achieved.count(None)) - len(outcome.open_goals)

@@ -199,7 +199,7 @@ def test_a_flight_that_was_cut_says_what_may_still_come(mission: Path, capsys: p
 
 def test_a_goal_that_came_back_is_not_counted_as_lost(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     told = (
-        "achieved 1, open 0, recalled 1; requests between reactors 2, rejected 1 (1 came back), refused 0, recalled 1;"
+        "achieved 1, open 0, recalled 1; requests between reactors 2, rejected 1 (1 came back), refused 0, recalled 1"
     )
     folder = CASES / "rejected_request_comes_back"
     assert told in flown(capsys, "run", str(folder / "mission.toml"))[1]
