@@ -31,6 +31,7 @@ cpdef long long _wanted_by(Workbench bench, long long t) except? -2
 @cython.locals(engine=Engine, free=double, start="long long", v="long long")
 cpdef double free_at(Workbench bench, long long t, long long current, long long tick) except? -1.0
 
+@cython.locals(is_asked=bint, other="long long", rows=Rows)
 cpdef bint keeps_next(Workbench bench, long long t) except -1
 
 @cython.locals(engine=Engine)

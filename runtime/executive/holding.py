@@ -96,7 +96,12 @@ def keeps_next(bench: Workbench, t: int) -> bool:
 
     What holds there by default ends when something else begins, also where it was asked for itself.
     """
-    if bench.key(t) not in bench.asked:
+    rows, other = bench.rows, bench.rows.merged[t]
+    is_asked = rows.key[t] in bench.asked
+    while other >= 0 and not is_asked:  # after a repair what was asked for is found in what its owner has begun
+        is_asked = rows.key[other] in bench.asked
+        other = rows.merged_next[other]
+    if not is_asked:
         return False
     return not bench.is_met_by(bench.predicate_of(t), bench.defaults.get(bench.object_of(t), NONE))
 

@@ -49,6 +49,12 @@ def test_what_once_differed_in_a_window_no_longer_does(seed: int) -> None:
     assert differences(windowed_mission(seed))[0] == []
 
 
+# After a repair, too, what comes next waits for the end of what was asked for before and runs.
+@pytest.mark.parametrize("seed", [5107, 5148])
+def test_what_once_differed_behind_what_runs_no_longer_does(seed: int) -> None:
+    assert differences(following_mission(seed))[0] == []
+
+
 def _without_choice(make: Callable[[int], Description], seeds: range) -> int:
     """In how many missions the text leaves a planner no choice; in these nothing differs."""
     sure = 0
