@@ -179,7 +179,8 @@ class DeterminedReactor(TeleoReactor):
             self.machine.keep()
             self.base = tick
             watched = 0
-            limit = min(tick + _AHEAD, self.final_tick)
+            # To the next event costs nothing, however far away it is.
+            limit = min(max(tick + _AHEAD, self.machine.present.next_event(tick)), self.final_tick)
             for wish in self.wishes:
                 watched |= 1 << wish.line
                 limit = min(limit, max(self.final_tick - 1, tick + 1))

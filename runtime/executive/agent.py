@@ -21,10 +21,12 @@ from runtime.executive.poster import GoalPoster
 from runtime.executive.reactor import Failure, Refusal, TeleoReactor, Watched
 from runtime.executive.told_on import asked_in, told_on
 from runtime.executive.trace import Trace, as_it_is
+from runtime.limits import TIME_LIMIT
 
 _START, _SYNCHRONISE, _OBSERVE = Phase.START, Phase.SYNCHRONISE, Phase.OBSERVE
 _DELIBERATE, _DISPATCH = Phase.DELIBERATE, Phase.DISPATCH
 _FIRST = (inf, 0)  # before all turns
+_UNWATCHED = 256  # visits between two looks at how long the mission has taken
 
 
 class Agent:
@@ -76,7 +78,11 @@ class Agent:
         final_tick = self.configuration.final_tick
         last = final_tick if until is None else min(until, final_tick)
         abort: Abort | None = None
+        visits = 0
         while True:
+            visits += 1
+            if visits % _UNWATCHED == 0:  # planners look at the time themselves, others do not
+                TIME_LIMIT.check(None)
             self.trace.tick = self.tick
             self.clock.begin(self.tick)
             if self.ahead:
