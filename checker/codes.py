@@ -53,6 +53,7 @@ NO_MATCH = Code("NDDL738", Severity.WARNING, "name", "no model that is planned w
 RESOURCES_FIRST = Code(
     "NDDL739", Severity.INFO, "rule", "uses of resources are ordered before {what}: such a search may have no end"
 )
+BEYOND_MODEL = Code("NDDL740", Severity.WARNING, "domain", "`{name}` is drawn {reason}")
 NO_REQUESTS = Code(
     "NDDL734", Severity.WARNING, "rule", "`{timeline}` takes no requests: its owner `{owner}` has a lookahead of 0"
 )

@@ -25,6 +25,7 @@ from checker.property_tables import read_properties
 from checker.reactor_tables import read_reactors, suggest_owned
 from checker.respelt import respelt, rewritten
 from nddl_lang.mission_suffixes import AGENT_SUFFIXES
+from nddl_lang.syntax.codes import UNDECODABLE
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_source
@@ -91,7 +92,10 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
         values = toml_value(source.text)
     except tomllib.TOMLDecodeError as problem:
         return None, (not_toml(NOT_TOML, source, str(problem)),)
-    return _mission_of(MissionText(source, find_places(source.text)), values, root)
+    text = MissionText(source, find_places(source.text))
+    if (at := source.text.find("\ufffd")) >= 0:
+        text.diagnostics.append(UNDECODABLE.at(text.span(at, at + 1), help="save the file as UTF-8"))
+    return _mission_of(text, values, root)
 
 
 def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:

@@ -1,6 +1,7 @@
 """The pages of the codes about mission files; `docs/mission.md` describes such a file."""
 
 from checker.codes import (
+    BEYOND_MODEL,
     CYCLE,
     ILL_BATCH,
     ILL_DISTRIBUTION,
@@ -156,6 +157,14 @@ MISSION_PAGES = (
         "The name is mistyped, or the model has changed: what is meant to vary does not.",
         "[parameters.GPS_HITRATE]\nrange = [0.1, 4.0]\n",
         "[parameters.GPS_HIT_RATE]\nrange = [0.1, 4.0]\n",
+        "toml",
+    ),
+    RulePage(
+        BEYOND_MODEL,
+        "A parameter is drawn outside of the range that the model gives it.",
+        "The file's range stands in place of the model's, so rules read values that the model says there are none of.",
+        "[parameters.GPS_HIT_RATE]\nrange = [0.1, 40.0]  # float GPS_HIT_RATE = [0.1 4.0];\n",
+        "[parameters.GPS_HIT_RATE]\nrange = [0.1, 4.0]  # float GPS_HIT_RATE = [0.1 4.0];\n",
         "toml",
     ),
     RulePage(

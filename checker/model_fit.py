@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from checker.codes import (
+    BEYOND_MODEL,
     ILL_DISTRIBUTION,
     ILL_VALUE,
     NO_ARGUMENT,
@@ -108,6 +109,10 @@ def sampling_misfits(mission: Mission, sites: Mapping[str, ParameterSite]) -> It
         elif parameter.name in mission.needs_range and _bounds(site.default) is None:
             notes = tuple(Note("sampled here", use) for use in site.uses[:1])
             yield NO_RANGE.at(span, name=parameter.name, notes=notes)
+        elif parameter.name not in mission.needs_range and (beyond := _beyond(parameter, _bounds(site.default))):
+            notes = tuple(Note("sampled here", use) for use in site.uses[:1])
+            advice = "rules read such a value all the same: widen the range in the model, or narrow it here"
+            yield BEYOND_MODEL.at(span, name=parameter.name, reason=beyond, help=advice, notes=notes)
     listed = {parameter.name for parameter in mission.agent.parameters}
     for name, site in sites.items():
         if name not in listed and _bounds(site.default) is None:
@@ -135,9 +140,27 @@ def _fractions(parameter: ParameterConfiguration) -> str:
     strange = [value for value in parameter.values if value != int(value)]
     if strange:
         return f"{strange[0]:g} is none"
+    clipped = [end for end in parameter.clip or () if math.isfinite(end) and end != int(end)]
+    if clipped:
+        return f"{clipped[0]:g} of its `clip` is none"
     if not parameter.values and not parameter.expression and math.floor(parameter.upper) < math.ceil(parameter.lower):
         return f"there is none from {parameter.lower:g} to {parameter.upper:g}"
     return ""
+
+
+def _beyond(parameter: ParameterConfiguration, own: _Bounds | None) -> str:
+    """What is drawn outside of the model's range; empty where nothing is. Of normal and computed ones it is silent."""
+    if own is None:
+        return ""
+    says = f"the model says {own[0]:g} to {own[1]:g}"
+    if parameter.values:
+        found = next((value for value in parameter.values if not own[0] <= value <= own[1]), None)
+        return "" if found is None else f"as {found:g}, and {says}"
+    if parameter.distribution not in ("uniform", "truncated_normal"):
+        return ""
+    least, most = parameter.clip or (-math.inf, math.inf)
+    lower, upper = max(parameter.lower, least), min(parameter.upper, most)
+    return "" if own[0] <= lower and upper <= own[1] else f"from {lower:g} to {upper:g}, and {says}"
 
 
 def complete(mission: Mission, sites: Mapping[str, ParameterSite]) -> AgentConfiguration:

@@ -7,6 +7,7 @@ from typing import cast
 from checker.codes import ILL_DISTRIBUTION, TWICE
 from checker.mission_table import LEAST, Table
 from nddl_lang.text.diagnostic import Note
+from nddl_lang.text.source import Span
 from runtime.executive.configuration import Mode, ParameterConfiguration
 from runtime.executive.distributions import DISTRIBUTIONS
 from runtime.executive.expression import ExpressionError, parse_expression
@@ -139,13 +140,13 @@ def _read_joint(name: str, table: Table, known: list[ParameterConfiguration]) ->
         reasons.append("a joint table needs `parameters`, a list of names, and `rows` with a value for each")
     for reason in reasons:
         table.text.diagnostics.append(ILL_DISTRIBUTION.at(table.text.key_span(table.path), reason=reason))
-    taken = {one.name for one in known}
+    taken = {one.name: _name_span(table, one, known) for one in known}
     for index, one in enumerate(names):
+        span = table.text.value_span((*table.path, "parameters", index))
         if one in taken:
-            span = table.text.value_span((*table.path, "parameters", index))
-            notes = (Note("first here", table.text.key_span(("parameters", one))),)
+            notes = (Note("first here", taken[one]),)
             table.text.diagnostics.append(TWICE.at(span, what="the parameter", name=one, notes=notes))
-        taken.add(one)
+        taken.setdefault(one, span)
     if is_ill or reasons or not rows:
         return []
     columns = zip(names, zip(*rows, strict=True), strict=True)
@@ -156,6 +157,15 @@ def _read_joint(name: str, table: Table, known: list[ParameterConfiguration]) ->
         )
         for one, column in columns
     ]  # fmt: skip
+
+
+def _name_span(table: Table, parameter: ParameterConfiguration, known: list[ParameterConfiguration]) -> Span:
+    """Where a parameter that was read before has its name."""
+    kind, _, joint = parameter.stream.partition(" ")
+    if kind != "joint" or not joint:
+        return table.text.key_span(("parameters", parameter.name))
+    columns = [one.name for one in known if one.stream == parameter.stream]
+    return table.text.value_span(("joint", joint, "parameters", columns.index(parameter.name)))
 
 
 def _with_rhythm(parameters: list[ParameterConfiguration], tables: Table) -> tuple[ParameterConfiguration, ...]:

@@ -245,6 +245,8 @@ def _undecided(pattern: TokenPattern, token: _Held) -> str:
         value = token.arguments.get(name)
         if name not in TOKEN_TIMES and isinstance(value, ValueRange | OpenValues):
             told.append(f"`{name}` was never decided ({_shown(value)})")
+    if pattern.where and (why := _without_value(pattern.where, token)):
+        told.append(f"`{pattern.where}`: {why}")
     return ", ".join(told)
 
 
@@ -314,6 +316,20 @@ def _where_margin(text: str, token: _Held) -> float:
     if len(given) + len(ranges) < len(values):
         return -math.inf
     return _condition_margin(expression.root, given, ranges)
+
+
+def _without_value(text: str, token: _Held) -> str:
+    """Why a condition has no value for a token, such as a division by zero; empty where it has one."""
+    expression = parse_expression(text)
+    values = {name: token.arguments.get(name) for name in expression.names}
+    given = {name: float(value) for name, value in values.items() if isinstance(value, int | float)}
+    if len(given) < len(values) or not math.isnan(expression.limit(given)):
+        return ""
+    try:
+        expression.value(given)
+    except ExpressionError as problem:
+        return str(problem)
+    return ""
 
 
 def _condition_margin(node: ast.expr, given: Mapping[str, float], ranges: Mapping[str, ValueRange]) -> float:

@@ -41,7 +41,7 @@ def read_properties(tables: list[Table], owned: tuple[str, ...]) -> tuple[Proper
         inner = table.table("then", "[property.then]", needed=kind in _NEEDS_THEN)
         then = _read_pattern(inner, owned) if inner.values else None
         inner.close()
-        ticks = table.whole("ticks", 0, 1) if table.has("ticks") or kind is PropertyKind.WITHIN else 0
+        ticks = table.whole("ticks", 0, 0) if table.has("ticks") or kind is PropertyKind.WITHIN else 0
         if kind is PropertyKind.WITHIN:
             table.complain_of_missing("ticks")
         table.asked += ["by", "ticks"]

@@ -73,7 +73,8 @@ def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_tr
     run = run_named(store, name)
     campaign, is_same = campaign_of(run, is_trusted)
     results = tuple(campaign.judged(one) for one in store.results(run.id))
-    first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
+    failed = next((one.number for one in results if one.verdict is Verdict.FAIL), None)
+    first = failed if number is None else number
     kept = {example: read_record(Causes, text) for example, text in store.causes(run.id).items()}
     may_fly = is_same and bounds.flights > 0
     causes = {example: one for example, one in kept.items() if not may_fly or one.is_all_of(bounds.flights)}

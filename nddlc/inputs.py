@@ -54,6 +54,8 @@ class Unusable(click.ClickException):
 def mission_of_run(what: str) -> tuple[str, int | None]:
     """The name of a run and the number of a mission that `RUN#MISSION` names; `k3`, the third kept failure, is -3."""
     name, _, number = what.partition("#")
+    if not (name or number):
+        raise Unusable(f"`{what}` names no run", "write RUN#MISSION, such as latest#37, or RUN, such as latest")
     if number and _NUMBER.fullmatch(number) is None:
         raise Unusable(f"`{number}` is no number of a mission", "write RUN#MISSION, such as latest#37")
     if not number:
@@ -200,7 +202,9 @@ def _readable(name: str) -> Path:
     path = Path(name)
     try:
         if path.is_dir():
-            raise Unusable(f"`{name}` is a directory", f"name {_in_directory(path)}")
+            if not name:
+                raise Unusable("an empty name names no file")
+            raise Unusable(f"`{name}` is a directory", _in_directory(path))
         with path.open("rb", buffering=0) as file:
             _check_kind(name, file.fileno())
     except FileNotFoundError:
@@ -225,12 +229,12 @@ def models_only(files: tuple[str, ...]) -> None:
             raise Unusable(f"`{name}` is no model", f"models end in .nddl; {_NO_MODELS[Path(name).suffix.lower()]}")
 
 
-def _in_directory(path: Path) -> str:
+def _in_directory(path: Path) -> str | None:
     """What to name instead of a directory."""
     missions = sorted(path.glob("*.toml"))
     if len(missions) == 1:
-        return f"a file in it: `{missions[0]}` is a mission, models end in .nddl"
-    return f"the files in it, as in `{path / '*.nddl'}`"
+        return f"name a file in it: `{missions[0]}` is a mission, models end in .nddl"
+    return f"name the files in it, as in `{path / '*.nddl'}`" if next(path.glob("*.nddl"), None) is not None else None
 
 
 def _check_kind(name: str, file: int) -> None:

@@ -25,7 +25,7 @@ _NAME = re.compile(r"[A-Za-z][\w.-]*")
     "--template", type=click.Choice(TEMPLATES), help="What to begin with; by default what NAME says, or survey."
 )
 def command(name: str, more: tuple[str, ...], template: str | None) -> int:
-    """Begin a project: a model, its simulator and a mission, in the new folder NAME.
+    """Begin a project: a model, its simulator and a mission, in the new folder NAME, a name or a path.
 
     survey has a fault on purpose, which the tutorial finds and mends; all others hold. From battery on they are the
     recipes of the cookbook, one each. Nothing that exists is written over.

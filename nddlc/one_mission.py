@@ -70,8 +70,6 @@ def warnings_page(models: ModelSet) -> str:
 
 def _may_be_drawn(parameter: ParameterConfiguration, value: float) -> bool:
     """Whether a draw of a parameter may have a value; of those with open ends or an expression nothing is said."""
-    if parameter.is_whole and not value.is_integer():
-        return False
     if parameter.values:
         return value in parameter.values
     return parameter.distribution != "uniform" or parameter.lower <= value <= parameter.upper
@@ -94,6 +92,8 @@ def values_of(given: tuple[str, ...], models: ModelSet) -> dict[str, float]:
             raise Unusable(problem, f"write `{name}=` and a number")
         values[name] = float(text)
         parameter = next(one for one in models.agent.parameters if one.name == name)
+        if parameter.is_whole and not values[name].is_integer():
+            raise Unusable(f"`{name}` takes a whole number, not `{text}`", f"it is {describe(parameter)}")
         if not _may_be_drawn(parameter, values[name]):
             click.echo(f"note: {text} is never drawn: {name} is {describe(parameter)}", err=True)
     return values

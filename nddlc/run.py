@@ -47,7 +47,7 @@ _MOST_REASONS = 3  # of goals that stayed open, each with its lines
 @click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="The seed of the mission, else that of the file.")
 @click.option("--param", "given", multiple=True, metavar="NAME=VALUE", help="Give a parameter a value; repeatable.")
 @click.option("--until", type=click.IntRange(0), help="Stop at this tick.")
-@click.option("--trace", type=_FILE, help="Write the trace here, as JSON Lines.")
+@click.option("--trace", type=_FILE, help="Write the trace here, as JSON Lines; folders are made.")
 @click.option("--real-time", "is_timed", is_flag=True, help="Let each tick take its time; what takes longer is late.")
 @click.option("--clock", "log", type=_FILE, help="Write the steps of planners in each tick here, for `log` of a clock.")
 @click.option("--store", "store_path", type=click.Path(path_type=Path), default=STORE, help="Where runs are kept.")

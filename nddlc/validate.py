@@ -151,18 +151,18 @@ def _flown(path: Path, seed: int, target: Path | None, is_trusted: bool) -> _Jud
 
 def _loaded(path: Path, is_trusted: bool, *, is_named: bool = True) -> tuple[AgentConfiguration, MissionPrograms]:
     mission, found = read_mission(path)
-    _refuse(found)
+    _refuse(found, "the mission file is in error: nothing was judged")
     assert mission is not None
     models = models_of(mission, is_trusted=is_trusted, is_named=is_named)
-    _refuse(models.diagnostics)
+    _refuse(models.diagnostics, "the models are in error: nothing was judged")
     return models.agent, pinned(models).programs_of(models.agent)
 
 
-def _refuse(found: tuple[Diagnostic, ...]) -> None:
+def _refuse(found: tuple[Diagnostic, ...], problem: str) -> None:
     errors = [one for one in found if one.severity is Severity.ERROR]
     if errors:
         click.echo("\n".join(render(one) for one in errors), err=True)
-        raise Unusable("the model has errors")
+        raise Unusable(problem)
 
 
 def _traced(path: Path, mission_path: Path | None, is_trusted: bool) -> _Judged:
@@ -239,7 +239,7 @@ def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> _Jud
         raise DocumentError(f"there is no model `{path.parent / name}`")
     reactor = data.get("reactor")
     analysis = _analysed(model, reactor if is_printed(data) and isinstance(reactor, str) else None)
-    _refuse(repaired(analysis).diagnostics)
+    _refuse(repaired(analysis).diagnostics, "the model is in error: nothing was judged")
     program = compile_model(analysis)
     base = _base(program, _PLAN)
     if is_printed(data):

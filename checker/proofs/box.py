@@ -22,6 +22,15 @@ class Box:
     sides: Mapping[str, ParameterConfiguration]
     computed: tuple[str, ...]
 
+    def endless(self) -> list[str]:
+        """The parameters that are drawn outside of the box too: of a distribution without ends, not clipped to it."""
+        return [
+            name
+            for name, side in self.sides.items()
+            if side.distribution == "normal"
+            and not (side.clip and side.lower <= side.clip[0] and side.clip[1] <= side.upper)
+        ]
+
     def middle(self) -> Point:
         """The point in the middle."""
         return {name: self._at(side, 0.5) for name, side in self.sides.items()}

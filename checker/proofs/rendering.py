@@ -33,6 +33,9 @@ def certificate_lines(name: str, found: Certificate, box: Box, excerpts: Excerpt
         case _:
             lines = [f"{name}: unknown: {found.why}"]
     lines.append(f"  box: {sides}")
+    if endless := box.endless():
+        verb = "is" if len(endless) == 1 else "are"
+        lines.append(f"  {' and '.join(endless)} {verb} drawn outside of the box too, of which nothing is proved")
     if found.certainty is Certainty.REFUTED and found.outcome is not None:
         judgement = judge_within(found.outcome, found.limits)
         lines.append(f"  {judgement.code} at tick {found.outcome.last_tick}: {_failure(found)}")
@@ -103,6 +106,7 @@ def certificate_data(found: Certificate, box: Box, excerpts: Excerpts) -> dict[s
         "answer": found.certainty.value,
         "why": found.why,
         "box": {name: [side.lower, side.upper] for name, side in box.sides.items()},
+        "endless": box.endless(),
         "point": found.point,
         "code": judge_within(found.outcome, found.limits).code if found.outcome is not None else None,
         "lines": [place_data(place_of(span, excerpts.root), excerpts) for span in found.lines],

@@ -10,6 +10,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
+from runtime.constraints.domains.tags import HALF_INF
+
 _LONGEST = 1000  # characters
 _DEEPEST = 40
 _FUNCTIONS: Mapping[str, tuple[int, int, Callable[..., float]]] = {  # least and most arguments
@@ -54,8 +56,8 @@ class Expression:
         except (ZeroDivisionError, ValueError, OverflowError) as problem:
             given = ", ".join(f"{name} = {values[name]:g}" for name in self.names)
             raise ExpressionError(f"it has no value for {given}: {problem}") from problem
-        if not math.isfinite(found):
-            raise ExpressionError("its value is not finite")
+        if not abs(found) < HALF_INF:
+            raise ExpressionError("its value is not finite, or 2^51 or more in size, which cannot be held")
         return found
 
     def limit(self, values: Mapping[str, float]) -> float:

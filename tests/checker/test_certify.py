@@ -13,12 +13,12 @@ from checker.mission import read_mission
 from checker.models import load_models
 from checker.mutation.variant import open_over
 from checker.oracle import Verdict, judge
-from checker.proofs.box import Point
+from checker.proofs.box import Box, Point
 from checker.proofs.certify import Certainty, Certifier
 from checker.proofs.constants import places_of, safe_constant, with_value
 from checker.proofs.rendering import certificate_lines
 from nddlc.certify import certifier_of
-from runtime.executive.configuration import PropertyConfiguration, PropertyKind, TokenPattern
+from runtime.executive.configuration import ParameterConfiguration, PropertyConfiguration, PropertyKind, TokenPattern
 from runtime.executive.outcome import Outcome
 from runtime.executive.record import MissionRecord
 from tests.checker.conditions.campaigns import campaign
@@ -104,6 +104,10 @@ def test_a_certificate_survives_corners_and_random_missions() -> None:
     assert proof.certify(corners=False).certainty is Certainty.UNKNOWN
     rules = proof.certify(corners=False, rules_only=True)
     assert (rules.certainty, rules.unproved) == (Certainty.CERTIFIED, ("kept",))
+    normal = ParameterConfiguration("N", 1.0, 9.0, "normal")
+    box = Box({"N": normal, "C": replace(normal, clip=(1.0, 9.0)), "D": replace(normal, clip=(0.0, 9.0))}, ())
+    lines = certificate_lines("gps", rules, box, Excerpts(MODELS / "gps"))
+    assert "  N and D are drawn outside of the box too, of which nothing is proved" in lines
     for point in (*proof.box.corners(), *proof.box.drawn(MOST, 99)):
         assert proof.fly(point)[2], point
 

@@ -205,3 +205,5 @@ def test_an_expression_without_a_value_says_so() -> None:
         parse_expression("1 / A").value({"A": 0.0})
     with pytest.raises(ExpressionError, match="not finite"):
         parse_expression("A * A").value({"A": 1e200})
+    with pytest.raises(ExpressionError, match="cannot be held"):
+        parse_expression("A * A").value({"A": 5e7})

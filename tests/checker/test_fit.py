@@ -156,9 +156,31 @@ def test_half_a_tick_is_named(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_a_parameter_of_whole_numbers_is_drawn_from_such(capsys: pytest.CaptureFixture[str]) -> None:
-    for keys, reason in (("range = [0.2, 0.7]", "there is none from 0.2 to 0.7"), ("values = [1, 2.5]", "2.5 is none")):
+    for keys, reason in (
+        ("range = [0.2, 0.7]", "there is none from 0.2 to 0.7"),
+        ("values = [1, 2.5]", "2.5 is none"),
+        ("clip = [2.5, 9]", "2.5 of its `clip` is none"),
+    ):
         ((code, _, message, _),) = found(MISSION + f"[parameters.LEGS]\n{keys}\n", capsys)
         assert (code, message) == ("NDDL713", f"the model samples whole numbers, and {reason}")
+
+
+@pytest.mark.parametrize(
+    ("keys", "drawn"),
+    [
+        ("range = [0, 40]", "from 0 to 40"),
+        ("range = [0, 40]\nclip = [-1, 9]", ""),
+        ("range = [2, 9]", ""),
+        ("values = [1, 12]", "as 12"),
+        ("value = 9", ""),
+        ('distribution = "normal"', ""),
+    ],
+)
+def test_a_parameter_that_is_drawn_beyond_what_the_model_says_is_told(
+    keys: str, drawn: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    told = [(code, message) for code, _, message, _ in found(MISSION + f"[parameters.LEGS]\n{keys}\n", capsys)]
+    assert told == ([("NDDL740", f"`LEGS` is drawn {drawn}, and the model says 0 to 9")] if drawn else [])
 
 
 def test_a_parameter_of_a_joint_table_that_nobody_samples_is_named_in_it(capsys: pytest.CaptureFixture[str]) -> None:
@@ -176,12 +198,12 @@ def test_a_value_that_is_never_drawn_is_told(capsys: pytest.CaptureFixture[str])
 
 
 @pytest.mark.parametrize(
-    "text", ["nan", "inf", "-inf", "1e300", "2251799813685248", "\N{ARABIC-INDIC DIGIT THREE}", "1_0", " 3"]
+    "text", ["nan", "inf", "-inf", "1e300", "2251799813685248", "\N{ARABIC-INDIC DIGIT THREE}", "1_0", " 3", "2.5"]
 )
 def test_a_value_that_no_parameter_can_have_is_refused(text: str, capsys: pytest.CaptureFixture[str]) -> None:
     Path("mission.toml").write_text(MISSION)
     assert run(["run", "mission.toml", "--param", f"LEGS={text}"]) == 2
-    assert "`LEGS` takes a number" in capsys.readouterr().err
+    assert f"`LEGS` takes a {'whole ' if text == '2.5' else ''}number" in capsys.readouterr().err
 
 
 def test_an_owner_that_takes_no_requests_is_told_of(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,5 +1,6 @@
 """A mission file is read whole, and each mistake in it is named where it stands."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -267,6 +268,27 @@ def test_a_value_that_no_mission_can_have_is_named(old: str, new: str, message: 
     (found,) = complaints(text)
     assert message in found[3]
     assert len(found[3]) < 240
+
+
+def test_of_a_name_that_is_there_twice_the_first_is_shown() -> None:
+    text = (
+        HEAD
+        + '[joint.S]\nparameters = ["A", "A"]\nrows = [[1, 1]]\n[joint.T]\nparameters = ["A", "B"]\nrows = [[1, 2]]\n'
+    )
+    text += '[joint.U]\nparameters = ["B"]\nrows = [[1]]\n'
+    mission, found = parse_mission(Source("m.toml", text), GPS)
+    assert mission is None
+    told = [(one.span.begin, one.notes[0].span) for one in found if one.code.id == "NDDL709"]
+    a, b = ([each.start() for each in re.finditer(f'"{name}"', text)] for name in "AB")
+    assert [(at, span and span.begin) for at, span in told] == [(a[1], a[0]), (a[2], a[0]), (b[1], b[0])]
+
+
+def test_bytes_that_are_no_utf_8_are_told() -> None:
+    mission, found = parse_mission(Source("m.toml", f"{HEAD}# caf\ufffd"), GPS)
+    assert mission is not None
+    assert [(one.code.id, one.help) for one in found if one.code.id == "NDDL107"] == [
+        ("NDDL107", "save the file as UTF-8")
+    ]
 
 
 def test_all_mistakes_are_reported_in_one_go() -> None:

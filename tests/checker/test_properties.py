@@ -104,6 +104,8 @@ LATE_UP = TokenPattern("dive", "Up", (), "start > 60")
         ("always", UP, {"since": 30, "by": 49}, True, None, float("inf")),
         ("within", down(), {"then": ON, "ticks": 40}, True, None, 0.0),
         ("within", down(), {"then": ON, "ticks": 39}, False, 50, -1.0),
+        ("within", UP, {"then": UP, "ticks": 0}, True, None, 0.0),
+        ("within", down(), {"then": ON, "ticks": 0}, False, 10, -40.0),
         (
             "within",
             TokenPattern("dive", "Up", (), "start > 60"),
@@ -131,6 +133,12 @@ def test_a_property_has_its_fate(
 ) -> None:
     is_void = kind == "within" and margin == float("inf")
     assert replace(fate(kind, pattern, **given), seen="") == PropertyFate("p", kept, tick, margin, is_void)
+
+
+def test_a_condition_without_a_value_is_told_with_why() -> None:
+    found = fate("always", TokenPattern("dive", "Up", (), "1 / (start - start) > 0"))
+    assert not found.is_kept
+    assert "has no value for start = 0: float division by zero" in found.seen
 
 
 PROFILES = (

@@ -31,7 +31,11 @@ def test_a_mission_that_a_sampler_placed_is_flown_there(
     assert head["values"]["P"] > 0.9 and set(head["values"]) == set("PQR")
     assert run(["replay", "t.jsonl"]) == 0
 
-    for what, problem in (("latest#99", "has missions 1 to 16, not 99"), ("latest#x", "is no number of a mission")):
+    for what, problem in (
+        ("latest#99", "has missions 1 to 16, not 99"),
+        ("latest#0", "16, not 0"),
+        ("latest#x", "is no number of a mission"),
+    ):
         capsys.readouterr()
         assert run(["run", what]) == 2
         assert problem in capsys.readouterr().err

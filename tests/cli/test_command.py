@@ -117,6 +117,9 @@ def test_the_dialect_may_stand_before_the_command_or_after_it(tmp_path: Path, ca
 UNUSABLE = [
     (["lint", "no_such.nddl"], "no file `no_such.nddl`"),
     (["load", "."], "`.` is a directory"),
+    (["run", ""], "an empty name names no file"),
+    (["explain", ""], "`` names no run"),
+    (["explain", "#"], "`#` names no run"),
     (["load", "--include", "nowhere", "x.nddl"], "no directory `nowhere`"),
     (["load"], "Missing argument 'FILE...'"),
     (["lint", "--fromat", "json", "x.nddl"], "--format"),
