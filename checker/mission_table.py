@@ -320,10 +320,13 @@ class Table:
         """Whether the key is written, or another one that may be meant to be it."""
         return key in self.values or self._misspelt(key) is not None
 
-    def complain_of_value(self, key: str, found: object, wanted: str, advice: str | None = None) -> None:
-        """Report a value of the right type that cannot be."""
+    def complain_of_value(
+        self, key: str, found: object, wanted: str, advice: str | None = None, meant: tuple[str, str] = ("", "")
+    ) -> None:
+        """Report a value of the right type that cannot be; of `meant` the second is to be written for the first."""
         span = self.text.value_span((*self.path, key))
-        self.text.diagnostics.append(OUT_OF_RANGE.at(span, key=key, wanted=wanted, found=_short(found), help=advice))
+        complaint = OUT_OF_RANGE.at(span, key=key, wanted=wanted, found=_short(found), help=advice)
+        self.text.diagnostics.append(rewritten(complaint, *meant) if meant[1] else complaint)
 
     def _take(self, key: str, *, needed: bool = False) -> object:
         self.asked.append(key)

@@ -109,7 +109,7 @@ def _ill_distribution(table: Table, name: str, values: tuple[float, ...], expres
             if not parse_expression(expression).names and expression:
                 reasons.append("the expression reads no other parameter: write `value`")
         except ExpressionError as problem:
-            reasons.append(f"`expression`: {problem}")
+            reasons.append(f"`expression`: {problem}{f': write `{problem.meant}`' if problem.meant else ''}")
     return reasons
 
 

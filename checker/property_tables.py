@@ -66,7 +66,8 @@ def _read_pattern(table: Table, owned: tuple[str, ...]) -> TokenPattern:
         try:
             parse_expression(where)
         except ExpressionError as problem:
-            table.complain_of_value("where", f"`{where}`: {problem}", "arithmetic over the arguments of a token")
+            wanted = "arithmetic over the arguments of a token"
+            table.complain_of_value("where", f"`{where}`: {problem}", wanted, meant=(where, problem.meant))
             where = ""
     parameters = tuple((key, _wanted(given, key, given.values)) for key in given.values)
     return TokenPattern(timeline, table.string("predicate", ""), parameters, where)

@@ -215,14 +215,19 @@ def _tell(found: list[Diagnostic], files: list[str], style: str, mended: int, st
                     say(f"{count:6}  {code}  {message}\n")
             if mended:
                 click.echo(f"{_counted(mended, 'fix', 'fixes')} carried out")
-            say(f"{_summary(found, len(files))}\n")
+            say(f"{_summary(found, files)}\n")
 
 
-def _summary(found: Sequence[Diagnostic], files: int) -> str:
-    """How many findings of each weight there are, in one line."""
+def _summary(found: Sequence[Diagnostic], files: Sequence[str]) -> str:
+    """How many findings of each weight there are, in one line; of a mission file alone, what was not looked for."""
     counts = Counter(each.severity for each in found)
     words = [_counted(counts[severity], _WORDS[severity]) for severity in Severity if counts[severity]]
-    return f"{', '.join(words) or 'nothing wrong'} in {_counted(files, 'file')}"
+    paths = [Path(each) for each in files]
+    missions = [each for each in paths if each.suffix in MISSION_SUFFIXES and each.name not in (NAME, PROJECT)]
+    more = ""
+    if missions and all(each.suffix in MISSION_SUFFIXES for each in paths):
+        more = f" (of its models only errors are told; `nddlc lint {missions[0].parent}` has their warnings)"
+    return f"{', '.join(words) or 'nothing wrong'} in {_counted(len(files), 'file')}{more}"
 
 
 def _counted(number: int, word: str, words: str | None = None) -> str:

@@ -1,6 +1,7 @@
 """Find names inside one rule or constructor that nothing uses, and names that hide others."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
+from itertools import takewhile
 
 from nddl_lang.lint.codes import (
     HIDDEN_GLOBAL,
@@ -38,7 +39,7 @@ from nddl_lang.syntax.nodes import (
     RuleDecl,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Code, Diagnostic, Note
+from nddl_lang.text.diagnostic import Code, Diagnostic, Edit, Fix, Note
 from nddl_lang.text.source import Span
 
 
@@ -147,7 +148,7 @@ def lint_hidden_names(part: Part) -> Iterator[Finding]:
                             help_ = f"the parameter stays free; `{name.name}` means the local from here on"
                             yield HIDDEN_PARAMETER.at(name.span, help=help_, notes=notes, name=name.name)
                         else:
-                            yield from _hidden(visible, name)
+                            yield from _hidden(visible, name, twice=_said_twice(body, statement))
                             yield from _hidden_by_others(part, name)
                         visible[name.name] = name
                 case IfStatement(then=then, otherwise=otherwise):
@@ -166,11 +167,24 @@ def _note(variable: Variable) -> tuple[Note, ...]:
     return (Note("the parameter is declared here", variable.span),) if variable.span is not None else ()
 
 
-def _hidden(visible: dict[str, Identifier], name: Identifier, code: Code = HIDDEN_LOCAL) -> Iterator[Finding]:
+def _said_twice(body: Sequence[object], declared: VariableDecl) -> Span | None:
+    """A declaration that stands in the block before, word for word: where it stands the second time."""
+    before = takewhile(lambda one: one is not declared, body)
+    is_twice = any(isinstance(one, VariableDecl) and one.span.text == declared.span.text for one in before)
+    return declared.span if is_twice else None
+
+
+def _hidden(
+    visible: dict[str, Identifier], name: Identifier, code: Code = HIDDEN_LOCAL, twice: Span | None = None
+) -> Iterator[Finding]:
     first = visible.get(name.name)
     if first is not None:
         note = Note("the one that is hidden is declared here", first.span)
-        yield code.at(name.span, notes=(note,), name=name.name)
+        fixes = () if twice is None else (Fix("leave out the second one", (Edit(twice, ""),), safe=False),)
+        help_ = "give one of the two another name" if code is HIDDEN_LOCAL else None
+        if twice is not None:
+            help_ = f"`{twice.text}` stands there twice: leave out the second one"
+        yield code.at(name.span, notes=(note,), name=name.name, help=help_, fixes=fixes)
 
 
 def _hidden_by_others(part: Part, name: Identifier) -> Iterator[Finding]:

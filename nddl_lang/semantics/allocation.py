@@ -13,7 +13,7 @@ from nddl_lang.semantics.typenames import find_defined_class
 from nddl_lang.semantics.types import fits, object_type
 from nddl_lang.semantics.values import check_restriction
 from nddl_lang.syntax.nodes import Assignment, Expr, NewExpr, PathExpr, StringLiteral
-from nddl_lang.text.diagnostic import Edit, Fix, Note
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 from nddl_lang.text.source import Span
 
 _MOST_REORDERED = 5  # arguments whose orders are tried
@@ -36,12 +36,24 @@ def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | No
     if is_sound and scope.kind is BlockKind.SCRIPT:
         closed = context.symbols.closed_at(owner.name)
         if closed is not None:
-            notes = (Note("it is closed here", closed),)
-            context.complain(CLASS_IS_CLOSED.at(new.span, notes=notes, name=owner.name))
+            context.complain(_joins_late(new.span, closed, owner.name))
     if scope.kind in (BlockKind.SCRIPT, BlockKind.RULE):
         for name in _made_with(context.symbols, owner.name):
             context.symbols.put_object(name)
     return owner if is_sound else None
+
+
+def _joins_late(new: Span, closed: Span, name: str) -> Diagnostic:
+    """The complaint of an object that is made behind `close()`, which moves behind it where that is written alike."""
+    text, rest = closed.text, new.source.text[new.finish :].lstrip()
+    fixes: tuple[Fix, ...] = ()
+    if closed.source is new.source and text.endswith(";") and rest.startswith(";"):
+        behind = new.end + len(new.source.text) - new.finish - len(rest) + 1
+        edits = (Edit(closed, ""), Edit(Span(new.anchor, behind, behind), f"\n{text}"))
+        fixes = (Fix(f"write `{text}` behind it", edits, safe=False),)
+    help_ = f"`{text}` stands behind the last object that is made"
+    notes = (Note("it is closed here", closed),)
+    return CLASS_IS_CLOSED.at(new, notes=notes, name=name, help=help_, fixes=fixes)
 
 
 def _tell_unquoted(context: Context, scope: Scope, new: NewExpr) -> None:

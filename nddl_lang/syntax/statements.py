@@ -136,6 +136,8 @@ def _declarators(b: Builder, type_name: Identifier, declarators: list[Declarator
 def _without_call(b: Builder, type_name: Identifier, declarator: Declarator) -> Declarator:
     name, value = declarator.name.name, declarator.initialiser
     assert value is not None
+    if type_name.name == "return":  # no type, as is told where types are looked up
+        return Declarator(declarator.name, None, True, declarator.span)
     mend = f"{name} = {value.span.text}"
     is_plain = type_name.name in BASE_TYPES
     made = f"{name} = new {type_name.name}({value.span.text})"

@@ -6,6 +6,7 @@ The text is read by Python's parser and walked here; nothing but numbers, names,
 
 import ast
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -38,8 +39,29 @@ _COMPARISONS: Mapping[type[ast.cmpop], Callable[[float, float], bool]] = {
 }
 
 
+_OTHER_SIGNS = (  # of other languages, by how they are read here
+    (r"\s*&&?\s*", " and "),
+    (r"\s*\|\|?\s*", " or "),
+    (r"!(?!=)\s*", "not "),
+    (r"=<", "<="),
+    (r"=>", ">="),
+    (r"<>", "!="),
+    (r"(?<![<>=!])=(?!=)", "=="),
+    (r"\bAND\b", "and"),
+    (r"\bOR\b", "or"),
+    (r"\bNOT\b", "not"),
+)
+
+
 class ExpressionError(Exception):
-    """A text that is no expression, or values for which it has none; the message says why."""
+    """A text that is no expression, or values for which it has none; the message says why.
+
+    `meant` is an expression that says the same in signs that are known here, "" if none does.
+    """
+
+    def __init__(self, message: str, meant: str = "") -> None:
+        super().__init__(message)
+        self.meant = meant
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,12 +96,30 @@ def parse_expression(text: str) -> Expression:
     if len(text) > _LONGEST:
         raise ExpressionError(f"it is longer than {_LONGEST} characters")
     try:
+        return _read(text)
+    except ExpressionError as problem:
+        raise ExpressionError(str(problem), _meant(text)) from None
+
+
+def _read(text: str) -> Expression:
+    try:
         root = ast.parse(text.strip(), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ExpressionError("this is no arithmetic") from None
     names: dict[str, None] = {}
     _look_through(root, names, 0)
     return Expression(root, tuple(names))
+
+
+def _meant(text: str) -> str:
+    """The text with signs of other languages as they are written here; "" where that is no expression either."""
+    found = text
+    for sign, ours in _OTHER_SIGNS:
+        found = re.sub(sign, ours, found)
+    try:
+        return found if _read(found).names else ""
+    except ExpressionError:
+        return ""
 
 
 def _look_through(node: ast.AST, names: dict[str, None], depth: int) -> None:

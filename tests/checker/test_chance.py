@@ -200,6 +200,26 @@ def test_what_is_no_arithmetic_is_refused(text: str) -> None:
         parse_expression(text)
 
 
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("A <= 40 && B < 3", "A <= 40 and B < 3"),
+        ("A<1||B<1", "A<1 or B<1"),
+        ("!(A < 1)", "not (A < 1)"),
+        ("A != 1 AND B = 2", "A != 1 and B == 2"),
+        ("A =< 4", "A <= 4"),
+        ("A <> 4", "A != 4"),
+        ("A =", ""),
+        ("3 && 4", ""),
+        ("A + + &&", ""),
+    ],
+)
+def test_signs_of_other_languages_are_told_as_they_are_written_here(text: str, meant: str) -> None:
+    with pytest.raises(ExpressionError) as told:
+        parse_expression(text)
+    assert told.value.meant == meant
+
+
 def test_an_expression_without_a_value_says_so() -> None:
     with pytest.raises(ExpressionError, match="it has no value for A = 0: float division by zero"):
         parse_expression("1 / A").value({"A": 0.0})

@@ -136,4 +136,20 @@ SLIPS_OF_NEWCOMERS = (
     Mistake(PLANT, "mulEq(time, gas, BOIL_BASE);", "mulEq(time, gas);", "3"),
     Mistake(PLANT, "slow == (yeast > LAZY);", "slow == yeast > LAZY;", "slow == (yeast > LAZY)"),
     Mistake(BATCHES, "lookahead = 1\n", "lookahed = 1\n", "`lookahead`"),
+    # Of a twelfth newcomer, on these models.
+    Mistake(
+        "bakery/mission.toml",
+        'where = "trays > 12"',
+        'where = "trays > 12 && trays =< 90"',
+        "trays > 12 and trays <= 90",
+    ),
+    Mistake("brewery/plant.nddl", "bool slow;", "bool slow; bool slow;", "leave out the second one"),
+    Mistake(
+        "brewery/plant.nddl",
+        "Vat vat = new Vat(Internal);\nclose();",
+        "close();\nVat vat = new Vat(Internal);",
+        "`close();` stands behind the last object that is made",
+        "new Vat(Internal)",
+    ),
+    Mistake("brewery/plant.nddl", "bool slow;", "bool slow; return ceil(time);", "a rule gives nothing back"),
 )
