@@ -1,22 +1,21 @@
 """Choose the constructor that a `new` or `super(...)` calls; tell the user where none fits."""
 
 from collections.abc import Sequence
-from itertools import permutations
+from itertools import combinations
 
+from nddl_lang.semantics.arguments import MOST_REORDERED, ordinal, reordered, told_places
 from nddl_lang.semantics.codes import CLASS_IS_CLOSED, NO_BASE_CONSTRUCTOR, NO_CONSTRUCTOR, UNKNOWN_NAME
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.names import find
-from nddl_lang.semantics.schema import Chosen, Class, Constructor, Kind, Type
+from nddl_lang.semantics.schema import Chosen, Class, Constructor, Kind, Type, Variable
 from nddl_lang.semantics.scope import BlockKind, Context, Deferred, Scope, is_told
 from nddl_lang.semantics.symbol_table import SymbolTable
 from nddl_lang.semantics.typenames import find_defined_class
-from nddl_lang.semantics.types import fits, object_type
+from nddl_lang.semantics.types import fits, object_type, phrase
 from nddl_lang.semantics.values import check_restriction
 from nddl_lang.syntax.nodes import Assignment, Expr, NewExpr, PathExpr, StringLiteral
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 from nddl_lang.text.source import Span
-
-_MOST_REORDERED = 5  # arguments whose orders are tried
 
 
 def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | None:
@@ -108,7 +107,7 @@ def choose(
     best: Constructor | None = None
     least = 0
     for constructor in owner.constructors:
-        cost = _conversions(context.symbols, constructor, types)
+        cost = _conversions(context.symbols, constructor.parameters, types)
         if cost is not None and (best is None or cost < least):
             best, least = constructor, cost
     if best is None:
@@ -117,7 +116,9 @@ def choose(
             text = f"that takes `({described})`" if types else "without arguments"
             notes = constructor_notes(owner)
             help_, fixes = _unquoted(context.symbols, owner, arguments)
-            fixes = fixes or _reordered(context.symbols, owner, arguments, types)
+            if not fixes:
+                fixes = _reordered(context.symbols, owner, arguments, types)
+                help_ = _misfit(context.symbols, owner, arguments, types)
             complaint = NO_CONSTRUCTOR.at(span, notes=notes, help=help_, fixes=fixes, name=owner.name, arguments=text)
             context.complain(complaint)
         return None
@@ -143,22 +144,50 @@ def _unquoted(symbols: SymbolTable, owner: Class, arguments: Sequence[Expr]) -> 
 def _reordered(
     symbols: SymbolTable, owner: Class, arguments: Sequence[Expr], types: Sequence[Type | None]
 ) -> tuple[Fix, ...]:
-    """The arguments in the one other order that a constructor takes."""
-    if not 2 <= len(arguments) <= _MOST_REORDERED or None in types:
+    """The arguments in the other order that a constructor takes, where one moves fewest of them."""
+    if None in types:
         return ()
-    orders = [order for order in permutations(range(len(types))) if takes(symbols, owner, [types[at] for at in order])]
-    if len(orders) != 1:
-        return ()
-    texts = [arguments[at].span.text for at in orders[0]]
-    edits = tuple(
-        Edit(argument.span, text) for argument, text in zip(arguments, texts, strict=True) if argument.span.text != text
-    )
-    return (Fix(f"write `{', '.join(texts)}`", edits, safe=False),)
+    return reordered(arguments, lambda order: takes(symbols, owner, [types[at] for at in order]))
+
+
+def _misfit(symbols: SymbolTable, owner: Class, arguments: Sequence[Expr], types: Sequence[Type | None]) -> str | None:
+    """Which argument is missing, one too many or of another type, where it is plain which constructor is meant."""
+    meant = [one for one in owner.constructors if len(one.parameters) == len(types)] or owner.constructors
+    if len(meant) != 1 or not meant[0].parameters or max(len(types), len(meant[0].parameters)) > MOST_REORDERED:
+        return None
+    parameters = meant[0].parameters
+    if len(types) == len(parameters):
+        return "; ".join(
+            f"the {ordinal(at)}, `{argument.span.text}`, is {phrase(type_)}; `{_declared(parameter)}` is wanted"
+            for at, (argument, type_, parameter) in enumerate(zip(arguments, types, parameters, strict=True))
+            if type_ is not None and _conversion(symbols, type_, parameter.type) is None
+        )
+    is_short = len(types) < len(parameters)
+    costs: dict[tuple[int, ...], int] = {}
+    for places in combinations(range(max(len(types), len(parameters))), min(len(types), len(parameters))):
+        given = types if is_short else [types[at] for at in places]
+        wanted = [parameters[at] for at in places] if is_short else parameters
+        cost = _conversions(symbols, wanted, given)
+        if cost is not None:
+            costs[places] = cost
+    cheapest = [kept for kept, cost in costs.items() if cost == min(costs.values())]
+    first = tuple(range(min(len(types), len(parameters))))
+    # Where several fit alike, arguments are read in order: what is missing or too many are the last ones.
+    kept = cheapest[0] if len(cheapest) == 1 else first
+    if kept not in costs:
+        return None
+    others = [at for at in range(max(len(types), len(parameters))) if at not in kept]
+    texts = [_declared(parameters[at]) if is_short else arguments[at].span.text for at in others]
+    return told_places(others, texts, "missing" if is_short else "too many")
+
+
+def _declared(parameter: Variable) -> str:
+    return f"{parameter.type.name} {parameter.name}"
 
 
 def takes(symbols: SymbolTable, owner: Class, types: Sequence[Type | None]) -> bool:
     """Whether a constructor of the class takes arguments of these types."""
-    return any(_conversions(symbols, constructor, types) is not None for constructor in owner.constructors)
+    return any(_conversions(symbols, constructor.parameters, types) is not None for constructor in owner.constructors)
 
 
 def constructor_notes(owner: Class) -> tuple[Note, ...]:
@@ -168,7 +197,7 @@ def constructor_notes(owner: Class) -> tuple[Note, ...]:
 
 def signature_text(constructor: Constructor) -> str:
     """A constructor with its formal parameters, as declared."""
-    parameters = ", ".join(f"{parameter.type.name} {parameter.name}" for parameter in constructor.parameters)
+    parameters = ", ".join(map(_declared, constructor.parameters))
     return f"{constructor.class_name}({parameters})"
 
 
@@ -177,23 +206,25 @@ def has_empty_constructor(owner: Class) -> bool:
     return any(not constructor.parameters for constructor in owner.constructors)
 
 
-def _conversions(symbols: SymbolTable, constructor: Constructor, types: Sequence[Type | None]) -> int | None:
-    if len(constructor.parameters) != len(types):
+def _conversions(symbols: SymbolTable, parameters: Sequence[Variable], types: Sequence[Type | None]) -> int | None:
+    """How many conversions arguments of these types need; None where they do not fit."""
+    if len(parameters) != len(types):
         return None
     cost = 0
-    for type_, parameter in zip(types, constructor.parameters, strict=True):
-        target = parameter.type
-        if type_ is None:
-            continue
-        if not fits(type_, target, symbols.is_subclass):
+    for type_, parameter in zip(types, parameters, strict=True):
+        step = 0 if type_ is None else _conversion(symbols, type_, parameter.type)
+        if step is None:
             return None
-        if target.kind is Kind.OBJECT:
-            if not symbols.is_subclass(type_.base, target.base):
-                return None
-            cost += _distance(symbols, type_.base, target.base)
-        elif type_.kind is not target.kind:
-            cost += 1
+        cost += step
     return cost
+
+
+def _conversion(symbols: SymbolTable, found: Type, target: Type) -> int | None:
+    if not fits(found, target, symbols.is_subclass):
+        return None
+    if target.kind is not Kind.OBJECT:
+        return int(found.kind is not target.kind)
+    return _distance(symbols, found.base, target.base) if symbols.is_subclass(found.base, target.base) else None
 
 
 def _distance(symbols: SymbolTable, name: str, ancestor: str) -> int:

@@ -1,6 +1,7 @@
 """Check the arguments of a call against its signature: how many, and of what type."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from itertools import permutations
 
 from nddl_lang.semantics.codes import ARGUMENTS_DIFFER, WRONG_ARGUMENT, WRONG_COUNT
 from nddl_lang.semantics.names import suggest_name
@@ -9,10 +10,42 @@ from nddl_lang.semantics.scope import Context
 from nddl_lang.semantics.signature import Argument, ArgumentKind, Signature
 from nddl_lang.semantics.types import COUNTABLE, always_differ, comparable, phrase
 from nddl_lang.syntax.nodes import Expr, PathExpr
-from nddl_lang.text.diagnostic import Fix, Note
+from nddl_lang.text.diagnostic import Edit, Fix, Note
 from nddl_lang.text.source import Span
 
+MOST_REORDERED = 5  # arguments whose orders are tried
 _RESOURCE_CLASS = "CBReusable"
+_ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
+
+
+def ordinal(index: int) -> str:
+    """The place of an argument in words, counted from 0: `first`."""
+    return _ORDINALS[index] if index < len(_ORDINALS) else f"{index + 1}th"
+
+
+def told_places(places: Sequence[int], texts: Sequence[str], what: str) -> str:
+    """What is to be said of some arguments: `the second, `x`, is missing`."""
+    named = " and ".join(f"the {ordinal(place)}, `{text}`," for place, text in zip(places, texts, strict=True))
+    return f"{named} {'is' if len(places) == 1 else 'are'} {what}"
+
+
+def reordered(arguments: Sequence[Expr], takes: Callable[[tuple[int, ...]], bool]) -> tuple[Fix, ...]:
+    """The arguments in the one order that moves fewest of them, of those that are taken."""
+    if not 2 <= len(arguments) <= MOST_REORDERED:
+        return ()
+    moved = {
+        order: sum(place != at for place, at in enumerate(order))
+        for order in permutations(range(len(arguments)))
+        if takes(order)
+    }
+    orders = [order for order, moves in moved.items() if moves == min(moved.values())]
+    if len(orders) != 1:
+        return ()
+    texts = [arguments[at].span.text for at in orders[0]]
+    edits = tuple(
+        Edit(argument.span, text) for argument, text in zip(arguments, texts, strict=True) if argument.span.text != text
+    )
+    return (Fix(f"write `{', '.join(texts)}`", edits, safe=False),)
 
 
 def check_count(context: Context, name: str, signature: Signature, found: int, span: Span, meaning: str) -> bool:
@@ -20,7 +53,11 @@ def check_count(context: Context, name: str, signature: Signature, found: int, s
     if signature.accepts(found):
         return True
     note = Note(f"`{name}({signature.text})`: {meaning}")
-    context.complain(WRONG_COUNT.at(span, notes=(note,), name=name, expected=signature.count_text, found=found))
+    lacking = [*range(found, signature.minimum)]
+    help_ = told_places(lacking, [each.name for each in signature.required[found:]], "missing") if lacking else None
+    context.complain(
+        WRONG_COUNT.at(span, notes=(note,), help=help_, name=name, expected=signature.count_text, found=found)
+    )
     return False
 
 
@@ -33,6 +70,7 @@ def check_types(
 ) -> None:
     """Complain about each argument of the wrong type; an unknown type is passed over."""
     like: tuple[Expr, Type] | None = None
+    fixes = _in_order(context, signature, arguments, types)
     for index, (expression, type_) in enumerate(zip(arguments, types, strict=True)):
         argument = signature.argument(index)
         if type_ is None or argument is None:
@@ -40,7 +78,7 @@ def check_types(
         if argument.kind is not ArgumentKind.SAME:
             reference = context.tables.references.get(expression)
             if not _is_of_kind(context, argument, type_, reference):
-                complain_argument(context, name, argument, expression, phrase(type_))
+                complain_argument(context, name, argument, expression, phrase(type_), fixes=fixes)
         elif like is None:
             like = (expression, type_)
         elif not comparable(like[1], type_, context.symbols.is_subclass):
@@ -56,6 +94,22 @@ def check_types(
                     expected=phrase(like[1]),
                 )
             )
+
+
+def _in_order(
+    context: Context, signature: Signature, arguments: Sequence[Expr], types: Sequence[Type | None]
+) -> tuple[Fix, ...]:
+    """The arguments in the order in which all are of the right kinds, where they are not so but only one order is."""
+    places = [signature.argument(index) for index in range(len(arguments))]
+    references = [context.tables.references.get(argument) for argument in arguments]
+
+    def is_right(place: int, at: int) -> bool:
+        argument, type_ = places[place], types[at]
+        return argument is not None and type_ is not None and _is_of_kind(context, argument, type_, references[at])
+
+    if None in types or all(is_right(at, at) for at in range(len(arguments))):
+        return ()
+    return reordered(arguments, lambda order: all(map(is_right, range(len(order)), order)))
 
 
 def complain_argument(
