@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import permutations
 
 from nddl_lang.semantics.codes import ARGUMENTS_DIFFER, WRONG_ARGUMENT, WRONG_COUNT
+from nddl_lang.semantics.meant import member_meant
 from nddl_lang.semantics.names import suggest_name
 from nddl_lang.semantics.schema import Kind, Reference, TokenReference, Type
 from nddl_lang.semantics.scope import Context
@@ -78,7 +79,9 @@ def check_types(
         if argument.kind is not ArgumentKind.SAME:
             reference = context.tables.references.get(expression)
             if not _is_of_kind(context, argument, type_, reference):
-                complain_argument(context, name, argument, expression, phrase(type_), fixes=fixes)
+                is_number = argument.kind in (ArgumentKind.NUMBER, ArgumentKind.TIME)
+                help_, owned = member_meant(context, expression, type_) if is_number else (None, ())
+                complain_argument(context, name, argument, expression, phrase(type_), (), owned or fixes, help_)
         elif like is None:
             like = (expression, type_)
         elif not comparable(like[1], type_, context.symbols.is_subclass):
@@ -120,6 +123,7 @@ def complain_argument(
     found: str,
     meant: Iterable[str] = (),
     fixes: tuple[Fix, ...] = (),
+    help_: str | None = None,
 ) -> None:
     """Say that an argument is of the wrong kind; one of the names in `meant` may be what was meant."""
     text = expression.span.text
@@ -129,7 +133,7 @@ def complain_argument(
         expected=argument.kind.value,
         text=text,
         found=found,
-        help=fixes[0].title if fixes else None,
+        help=help_ or (fixes[0].title if fixes else None),
         fixes=fixes,
     )
     if isinstance(expression, PathExpr) and len(expression.parts) == 1:

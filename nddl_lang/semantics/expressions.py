@@ -34,11 +34,7 @@ from nddl_lang.semantics.meant import (
 from nddl_lang.semantics.names import name_beside, resolve_value, suggest_name
 from nddl_lang.semantics.natives import TIME_NAMES
 from nddl_lang.semantics.sampled import sampled_parameter
-from nddl_lang.semantics.schema import (
-    Kind,
-    TokenVariableReference,
-    Type,
-)
+from nddl_lang.semantics.schema import Kind, TokenVariableReference, Type
 from nddl_lang.semantics.scope import Context, Scope
 from nddl_lang.semantics.types import (
     BOOL,
@@ -154,6 +150,8 @@ def _binary_type(context: Context, binary: BinaryExpr, left: Type | None, right:
                 if left is None and is_token_in(context, binary.left):
                     break  # told of the left side
                 help_, fixes = relation_meant(context, binary)
+                if help_ is None:
+                    help_, fixes = member_meant(context, side, type_)
                 fixes = fixes or (number_meant(side, FLOAT) if isinstance(side, StringLiteral) else ())
                 help_ = help_ or (f"{fixes[0].title}, without quotes" if fixes else None)
                 text, found = side.span.text, phrase(type_)
@@ -180,19 +178,18 @@ def _check_equality(context: Context, binary: BinaryExpr, left: Type | None, rig
         return
     if not comparable(left, right, context.symbols.is_subclass):
         differing = binary.op == "!=" and always_differ(left, right)
-        fixes = tuple(
-            fix
-            for side, other in ((binary.left, right), (binary.right, left))
-            for fix in (
-                *parameter_meant(context, side, other),
-                *number_meant(side, other),
-                *value_meant(context, side, other),
-            )
-        )
+        helps: list[str] = []
+        fixes: list[Fix] = []
+        for side, type_, other in ((binary.left, left, right), (binary.right, right, left)):
+            help_, owned = member_meant(context, side, type_, other)
+            helps += () if help_ is None else (help_,)
+            fixes += (*owned, *parameter_meant(context, side, other))
+            fixes += (*number_meant(side, other), *value_meant(context, side, other))
         context.complain(
             (ALWAYS_DIFFERENT if differing else INCOMPARABLE).at(
                 binary.span,
-                fixes=fixes,
+                help=helps[0] if helps else None,
+                fixes=tuple(fixes),
                 left=binary.left.span.text,
                 one=phrase(left),
                 right=binary.right.span.text,
@@ -268,8 +265,11 @@ def _signed_type(context: Context, unary: UnaryExpr, operand: Type | None) -> Ty
     if operand is None:
         return None
     if operand.kind not in NUMBERS:
-        text = unary.operand.span.text
-        context.complain(NOT_A_NUMBER.at(unary.operand.span, op=unary.op, text=text, found=phrase(operand)))
+        text, (help_, fixes) = unary.operand.span.text, member_meant(context, unary.operand, operand)
+        complaint = NOT_A_NUMBER.at(
+            unary.operand.span, op=unary.op, text=text, found=phrase(operand), help=help_, fixes=fixes
+        )
+        context.complain(complaint)
         return None
     return plain(operand)
 

@@ -52,13 +52,27 @@ def parameter_meant(context: Context, token: Expr, other: Type) -> tuple[Fix, ..
     return (Fix(f"write `{text}`", (Edit(token.span, text),), safe=False),)
 
 
-def member_meant(context: Context, side: Expr, type_: Type) -> tuple[str | None, tuple[Fix, ...]]:
-    """Where an object stands for a number: the members of it that are numbers."""
+def member_meant(
+    context: Context, side: Expr, type_: Type, other: Type | None = None
+) -> tuple[str | None, tuple[Fix, ...]]:
+    """Where an object stands for a number, or for what may equal `other`: its members that are so.
+
+    Members of the very type come before those of the same kind, and these before what can be compared.
+    """
     if type_.kind is not Kind.OBJECT or not isinstance(side, PathExpr):
         return None, ()
-    owners = context.symbols.ancestry(type_.base)
-    numbers = [one.name for owner in owners for one in owner.members.values() if one.type.kind in NUMBERS]
-    texts = [f"{side.span.text}.{name}" for name in numbers[:_MOST_MEMBERS]]
+    is_subclass = context.symbols.is_subclass
+    members = [one for owner in context.symbols.ancestry(type_.base) for one in owner.members.values()]
+    if other is None:
+        found = [one for one in members if one.type.kind in NUMBERS]
+    else:
+        alike = [one for one in members if comparable(one.type, other, is_subclass)]
+        found = (
+            [one for one in alike if one.type == other]
+            or [one for one in alike if one.type.kind is other.kind]
+            or [one for one in alike if one.type.kind in NUMBERS]
+        )
+    texts = [f"{side.span.text}.{one.name}" for one in found[:_MOST_MEMBERS]]
     fixes = tuple(Fix(f"write `{text}`", (Edit(side.span, text),), safe=False) for text in texts if len(texts) == 1)
     return f"did you mean {' or '.join(f'`{text}`' for text in texts)}?" if texts else None, fixes
 

@@ -4,6 +4,7 @@ from nddl_lang.semantics import domains
 from nddl_lang.semantics.codes import DOES_NOT_FIT, OUTSIDE_TYPE
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.literals import is_infinite, number, whole_beside
+from nddl_lang.semantics.meant import member_meant
 from nddl_lang.semantics.schema import (
     Domain,
     EnumValue,
@@ -150,7 +151,9 @@ def _complain_misfit(context: Context, expression: Expr, found: Type, target: Ty
         if type_ is not None and not _fits(context, candidate, type_, target):
             part, part_type = candidate, type_
             break
-    help_, fixes = _mend(part, target, name)
+    help_, fixes = member_meant(context, part, part_type, target)
+    if help_ is None:
+        help_, fixes = _mend(part, target, name)
     context.complain(
         DOES_NOT_FIT.at(
             part.span,
