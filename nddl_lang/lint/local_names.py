@@ -71,7 +71,8 @@ def lint_unused_locals(part: Part) -> Iterator[Finding]:
                     continue
                 if variable in used:
                     if declarator.initialiser is None and variable.type.restriction is None:
-                        yield UNUSED_LOCAL.at(declarator.name.span, name=variable.name, done="read")
+                        help_ = f"nothing depends on `{variable.name}`: use it where its value counts, or remove it"
+                        yield UNUSED_LOCAL.at(declarator.name.span, help=help_, name=variable.name, done="read")
                 elif declarator.name.span not in _hidden_places(part):
                     yield _unused_local(node, index, declarator, variable)
         for loop in part.all(Foreach):

@@ -34,7 +34,7 @@ from nddl_lang.syntax.misspelt import all_relations, meant_time, meant_word
 from nddl_lang.syntax.nodes import BrokenStatement
 from nddl_lang.syntax.placement import break_statement
 from nddl_lang.syntax.reserved_names import read_as_name
-from nddl_lang.syntax.rewrites import close_block, end_in_comment, link_tokens, rewrite
+from nddl_lang.syntax.rewrites import ELSE_ELSEWHERE, close_block, end_in_comment, link_tokens, rewrite
 from nddl_lang.syntax.skipping import end_of_statement, unclosed_block
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS
 from nddl_lang.syntax.turned_signs import end_at_colon, join_paths, turn_signs
@@ -339,17 +339,17 @@ class Recovery:
             return
         b, kinds = self._b, self._kinds
         expected = describe_expected(expected_kinds(states))
-        found = describe_found(b, kinds, index)
         help_text = advise(kinds, b.texts, first, index) if idiom is None else idiom.help
-        if index > 0 and (kinds[index] == END or (index > first and self._is_first_in_line(index))):
-            span = b.piece.span(b.ends[index - 1], b.ends[index - 1])
-        else:
-            span = b.at(index)
+        is_behind = index > 0 and (kinds[index] == END or (index > first and self._is_first_in_line(index)))
+        span = b.piece.span(b.ends[index - 1], b.ends[index - 1]) if is_behind else b.at(index)
         fix = rewrite(b, first, index) if idiom is None or idiom.fix is None else idiom.fix
         fixes = (fix,) if fix is not None else ()
         if fix is not None and help_text is None:
             help_text = fix.title
-        b.report(EXPECTED, span, expected=expected, found=found, help=help_text, fixes=fixes)
+        if b.texts[first] in ELSE_ELSEWHERE and first < index:
+            b.report(MISSPELT, b.at(first), text=b.texts[first], help=help_text, fixes=fixes)
+            return
+        b.report(EXPECTED, span, expected=expected, found=describe_found(b, kinds, index), help=help_text, fixes=fixes)
 
     # ---- where things are ----
 

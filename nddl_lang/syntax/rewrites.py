@@ -18,6 +18,7 @@ _MEMBERS = frozenset(("predicate", "action", "}"))
 _HEADS = frozenset(("class", "if", "foreach", "enum", "predicate", "action"))
 _BETWEEN = "a relation stands between two tokens: `{text}`"
 _ELSE_IF = frozenset(("elif", "elsif", "elseif"))
+ELSE_ELSEWHERE = _ELSE_IF | {"otherwise"}  # how other languages begin what is done else
 _SIGNS = {"is": "==", "and": "&&", "or": "||", "plus": "+", "minus": "-", "times": "*", "over": "/"}
 
 
