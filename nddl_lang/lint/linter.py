@@ -17,6 +17,7 @@ from nddl_lang.lint.numbers import (
     lint_float_equality,
     lint_int_among_floats,
     lint_int_results,
+    lint_truths_as_numbers,
     lint_whole_floats,
 )
 from nddl_lang.lint.own_timeline import lint_own_timeline
@@ -49,6 +50,7 @@ _PART_LINTS: tuple[PartLint, ...] = (
     lint_whole_floats,
     lint_chained_comparisons,
     lint_arrows,
+    lint_truths_as_numbers,
     lint_draws,
     lint_texts,
     lint_filters,

@@ -14,8 +14,9 @@ from nddl_lang.lint.codes import (
     WHOLE_FLOAT,
 )
 from nddl_lang.lint.part import Facts, Finding, Part
-from nddl_lang.lint.reading import declared
+from nddl_lang.lint.reading import declared, domain_of
 from nddl_lang.lint.sampling import draws_of
+from nddl_lang.semantics import domains
 from nddl_lang.semantics.literals import is_fraction, number, whole_beside
 from nddl_lang.semantics.schema import GlobalReference, Interval, Kind, LocalReference, Values, Variable
 from nddl_lang.syntax.dialect import Dialect
@@ -43,6 +44,7 @@ from nddl_lang.text.source import Span
 _LARGEST_FLOAT = 2.0**51  # what is beyond counts as infinite, as in EUROPA
 _COMPARISONS = frozenset({"==", "!=", "<", "<=", ">", ">="})
 _ARITHMETIC = frozenset({"+", "-", "*", "/"})
+_TRUTHS = Values((0, 1))
 _ROUND = "say how to round: `ceil(...)` or `floor(...)`"
 _PRODUCTS = frozenset({"mulEq", "multEq", "divEq", "eqProduct"})
 
@@ -244,6 +246,23 @@ def lint_chained_comparisons(part: Part) -> Iterator[Finding]:
         fix = Fix(f"write `{text}`", (Edit(outer.span, text),), safe=False)
         notes = (Note(f"read as `({inner.span.text}) {outer.op} {right}`"),)
         yield CHAINED.at(outer.op_span, notes=notes, fixes=(fix,), op=outer.op, text=inner.span.text)
+
+
+def lint_truths_as_numbers(part: Part) -> Iterator[Finding]:
+    """A truth that is to equal a number which is neither 0 nor 1: `LIMIT == (a > 3)`."""
+    conditions = {each.condition for each in part.all(IfStatement)}
+    for comparison in part.all(BinaryExpr):
+        for truth, other in ((comparison.left, comparison.right), (comparison.right, comparison.left)):
+            is_told = comparison in conditions and isinstance(truth, PathExpr)  # as a condition that never holds
+            if comparison.op not in ("==", "!=") or is_told or _kind(part, truth) is not Kind.BOOL:
+                continue
+            kind = _kind(part, other)
+            domain = domain_of(part, other) if kind in (Kind.INT, Kind.FLOAT) else None
+            if domain is not None and kind is not None and domains.intersect(domain, _TRUTHS, kind) is None:
+                known, value = other.span.text, domains.text(domain)
+                said = f"`{known}` is {value}, and " if known != value else ""
+                notes = (Note(f"{said}a truth counts as 0 or 1"),)
+                yield CHAINED.at(comparison.op_span, notes=notes, op=comparison.op, text=truth.span.text)
 
 
 def lint_arrows(part: Part) -> Iterator[Finding]:

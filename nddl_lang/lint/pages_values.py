@@ -112,7 +112,8 @@ VALUE_PAGES = (
     RulePage(
         CHAINED,
         "A comparison is compared again.",
-        "`a < b < c` means `(a < b) < c`, where `a < b` counts as 0 or 1. Written in parentheses it is believed.",
+        "`a < b < c` means `(a < b) < c`, where `a < b` counts as 0 or 1. Written in parentheses it is believed, "
+        "unless the truth is to equal a number that is neither, as in `LIMIT == (a > b)`.",
         "int a; int b; int c;\na < b < c;\n",
         "int a; int b; int c;\na < b && b < c;\n",
     ),

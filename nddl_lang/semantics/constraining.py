@@ -11,6 +11,7 @@ from nddl_lang.semantics.names import suggest_name
 from nddl_lang.semantics.sampled import sampled_parameter
 from nddl_lang.semantics.scope import Context, Scope
 from nddl_lang.semantics.signature import ArgumentKind
+from nddl_lang.semantics.undeclared import propose_declaration
 from nddl_lang.syntax.advice import advise_operator
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import CallConstraint, ExprConstraint
@@ -19,7 +20,9 @@ from nddl_lang.text.diagnostic import Edit, Fix
 
 def check_expression_constraint(context: Context, scope: Scope, node: ExprConstraint) -> None:
     """Check `a + b == c;`."""
+    first = len(context.complaints)
     check_condition(context, scope, node.expression)
+    propose_declaration(context, scope, node, first)
 
 
 def check_call_constraint(context: Context, scope: Scope, node: CallConstraint) -> None:

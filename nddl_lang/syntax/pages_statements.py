@@ -144,7 +144,8 @@ STATEMENT_PAGES = (
         MISSPELT,
         "Where a word of the language would make sense stands a name that is none.",
         "The text is understood as if the word stood here that comes nearest: of keywords and types the one that makes "
-        "the statement go on, of relations `any` if none is near.",
+        "the statement go on, of relations `any` if none is near. Behind a word of other languages (`elif`) "
+        "the statement is passed over.",
         _LAMP + "Lamp::On { befor(object.Off dark); }\n",
         _LAMP + "Lamp::On { before(object.Off dark); }\n",
     ),
