@@ -110,7 +110,7 @@ def tell(
     shown = shown_tokens(outcome, acting, parameters, until, conflicts)
     indices = {
         *shown,
-        *sent_requests(outcome, conflict, outcome.last_tick),
+        *sent_requests(outcome, conflict, until),
         *(sent_requests(outcome, broken.conflict, broken.tick) if broken is not None else ()),
         *(index for index in events_to_abort(outcome, parameters) if index >= min(shown, default=0)),
     }

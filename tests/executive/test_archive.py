@@ -114,7 +114,7 @@ def test_what_is_visited_at_every_tick_stays_small_too() -> None:
     for tick in range(400):
         reactor.due = tick
         let_pass(reactor, tick, tick)
-        if tick in (109, 399):
+        if tick in (109, 389):  # at 399 nothing comes next
             grown.append(sizes(reactor))
     assert grown[0] == grown[1]
 
