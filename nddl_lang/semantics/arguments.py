@@ -71,7 +71,6 @@ def check_types(
 ) -> None:
     """Complain about each argument of the wrong type; an unknown type is passed over."""
     like: tuple[Expr, Type] | None = None
-    fixes = _in_order(context, signature, arguments, types)
     for index, (expression, type_) in enumerate(zip(arguments, types, strict=True)):
         argument = signature.argument(index)
         if type_ is None or argument is None:
@@ -80,8 +79,9 @@ def check_types(
             reference = context.tables.references.get(expression)
             if not _is_of_kind(context, argument, type_, reference):
                 is_number = argument.kind in (ArgumentKind.NUMBER, ArgumentKind.TIME)
-                help_, owned = member_meant(context, expression, type_) if is_number else (None, ())
-                complain_argument(context, name, argument, expression, phrase(type_), (), owned or fixes, help_)
+                help_, fixes = member_meant(context, expression, type_) if is_number else (None, ())
+                fixes = fixes or _in_order(context, signature, arguments, types)
+                complain_argument(context, name, argument, expression, phrase(type_), (), fixes, help_)
         elif like is None:
             like = (expression, type_)
         elif not comparable(like[1], type_, context.symbols.is_subclass):
@@ -102,7 +102,7 @@ def check_types(
 def _in_order(
     context: Context, signature: Signature, arguments: Sequence[Expr], types: Sequence[Type | None]
 ) -> tuple[Fix, ...]:
-    """The arguments in the order in which all are of the right kinds, where they are not so but only one order is."""
+    """The arguments, of which one is of the wrong kind, in the only order in which none is."""
     places = [signature.argument(index) for index in range(len(arguments))]
     references = [context.tables.references.get(argument) for argument in arguments]
 
@@ -110,7 +110,7 @@ def _in_order(
         argument, type_ = places[place], types[at]
         return argument is not None and type_ is not None and _is_of_kind(context, argument, type_, references[at])
 
-    if None in types or all(is_right(at, at) for at in range(len(arguments))):
+    if None in types:
         return ()
     return reordered(arguments, lambda order: all(map(is_right, range(len(order)), order)))
 
