@@ -14,7 +14,7 @@ from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import Abort, ElementKind, Event, EventKind, Outcome, PropertyFate, ReasonKind
 
 _MOST = 8  # steps that are told
-_MOSTANSWERS = 2
+_MOST_ANSWERS = 2
 _MOST_UNDER_WAY = 3
 _OVER = (EventKind.ACHIEVED, EventKind.RECALL, *ANSWERS)
 
@@ -71,18 +71,18 @@ def held_up(
     """
     abort = given_up(outcome)
     if violated is not None and violated.tick is not None:
-        yield from ((violated.tick, one) for one in _late(violated, outcome, agent))
+        yield from ((violated.tick, one) for one in _late(violated.name, violated.tick, outcome, agent))
     if abort is not None and broken is None:
         yield from ((abort.tick, one) for one in beside(abort, outcome, agent))
 
 
-def _late(broken: PropertyFate, outcome: Outcome, agent: AgentConfiguration) -> tuple[Waiting, ...]:
+def _late(name: str, due: int, outcome: Outcome, agent: AgentConfiguration) -> tuple[Waiting, ...]:
     """What the owner of a timeline had under way when that was to have reached what a property promises."""
-    kept = next((one for one in agent.properties if one.name == broken.name), None)
-    if kept is None or broken.tick is None or kept.kind is not PropertyKind.REACHED:
+    kept = next((one for one in agent.properties if one.name == name), None)
+    if kept is None or kept.kind is not PropertyKind.REACHED:
         return ()
     owner = _owners(agent).get(kept.pattern.timeline)
-    return _under_way(outcome, agent, owner.name, 0, broken.tick) if owner is not None else ()
+    return _under_way(outcome, agent, owner.name, 0, due) if owner is not None else ()
 
 
 def _under_way(outcome: Outcome, agent: AgentConfiguration, reactor: str, since: int, tick: int) -> tuple[Waiting, ...]:
@@ -134,4 +134,4 @@ def kept_open_by(outcome: Outcome, agent: AgentConfiguration) -> list[Event]:
         if event.kind in (EventKind.REQUEST, *ANSWERS):
             last[senders.get(event.request, ""), event.timeline, event.predicate] = event
     answers = [event for (sender, *_), event in last.items() if sender in owners and event.kind in ANSWERS]
-    return sorted(answers, key=lambda one: one.tick)[:_MOSTANSWERS]
+    return sorted(answers, key=lambda one: one.tick)[:_MOST_ANSWERS]
