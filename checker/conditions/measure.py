@@ -112,8 +112,7 @@ def measured_on(rows: Sequence[tuple[Row, Ended]], conjunctions: Sequence[Conjun
     ends = tuple((row, label is not Ended.PASSES) for row, label in inside)
     hit = sum(label is Ended.FAILS for _, label in inside)
     failed = sum(has_failed for _, has_failed in ends)
-    others = [label is not Ended.PASSES for row, label in rows if not holds(conjunctions, row)]
-    beyond = sum(others) / len(others) if others else None
+    beyond = _failing_outside([(row, label, 1.0) for row, label in rows], conjunctions)
     return Quality(_share(failed, len(inside)), _share(hit, alike), len(rows), 0, ends, beyond)
 
 
@@ -144,11 +143,14 @@ def weighted_on(
         lambda is_inside, label: not is_inside and label is Ended.FAILS,
     )
     ends = tuple((row, label is not Ended.PASSES) for row, label, _ in inside)
+    return Quality(precision, recall, len(rows), 0, ends, _failing_outside(rows, conjunctions))
+
+
+def _failing_outside(rows: Sequence[tuple[Row, Ended, float]], conjunctions: Sequence[Conjunction]) -> float | None:
+    """The share, by weight, that fail of the missions for which it does not hold; None where there are none."""
     others = [(weight, label is not Ended.PASSES) for row, label, weight in rows if not holds(conjunctions, row)]
-    beyond = (
-        sum(weight for weight, failed in others if failed) / sum(weight for weight, _ in others) if others else None
-    )
-    return Quality(precision, recall, len(rows), 0, ends, beyond)
+    failing = sum(weight for weight, has_failed in others if has_failed)
+    return failing / sum(weight for weight, _ in others) if others else None
 
 
 def parts_that_hold(conjunctions: Sequence[Conjunction], measured: Quality) -> tuple[Conjunction, ...]:

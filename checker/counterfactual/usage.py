@@ -17,13 +17,13 @@ from checker.counterfactual.numbers import is_raised
 from checker.counterfactual.orders import Orders
 from checker.counterfactual.siblings import Siblings
 from checker.counterfactual.word_odds import SAMPLED, TRUTHS, sign_of, sort_of, sum_of
+from checker.mutation.comments import numbers_in
 from checker.mutation.edits import EditSite, SmallEdit, inverse_of
 from checker.mutation.kinds import EditKind
 from checker.mutation.labels import Label
 
 _LABEL = re.compile(r"\s+(\w+)\s*\)")
 _MESSAGE = re.compile(r"(.*):\s*\"([^\"]*)\"\s*;\s*", re.DOTALL)
-_NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?")
 _MADE = re.compile(r"\bnew\s+\w+\s*\(([^()]*)\)")
 _WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
 _NAMED = 2.0  # odds of the comparison that a constant's name asks for
@@ -216,7 +216,7 @@ def usage_of(
     for site in sites:
         if (said := _MESSAGE.fullmatch(site.text)) is not None:
             for name in WORD.findall(said.group(1)):
-                messages[name] |= {float(one) for one in _NUMBER.findall(said.group(2))}
+                messages[name] |= numbers_in(said.group(2))
     lines = (Formulas(sites, named), Orders(sites), Siblings(sites), TimeLimits(sites), Distinct(sites))
     affinity, dimensions = Affinity(sites, named), Dimensions(sites, named)
     return Usage(

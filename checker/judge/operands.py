@@ -19,6 +19,7 @@ from compiler.program import (
     GlobalVariable,
     LocalVariable,
     Operand,
+    ParameterCode,
     Program,
     TokenVariable,
     TypeCode,
@@ -89,16 +90,17 @@ class VariableNames:
                 return self.locals.get(slot, "")
             case TokenVariable(token=token, variable=variable):
                 label, predicate = self.tokens.get(token, ("", ""))
-                name = BUILT_IN.get(variable) or self._parameter(predicate, variable - FIRST_PARAMETER)
+                parameter = self._parameter(predicate, variable)
+                name = BUILT_IN.get(variable) or (parameter.name if parameter is not None else "")
                 return f"{label}.{name}" if label else name
             case Field(base=base, members=members):
                 return ".".join(([self.of(base)] if base is not None else []) + list(members))
             case _:
                 return ""
 
-    def _parameter(self, predicate: str, number: int) -> str:
-        code = self.predicates.get(predicate)
-        return code.parameters[number].name if code is not None and number < len(code.parameters) else ""
+    def _parameter(self, predicate: str, variable: int) -> ParameterCode | None:
+        code, number = self.predicates.get(predicate), variable - FIRST_PARAMETER
+        return code.parameters[number] if code is not None and 0 <= number < len(code.parameters) else None
 
     def kind_of(self, operand: Operand) -> str:
         """The kind of type of a variable with a name; empty for what is none."""
@@ -107,10 +109,9 @@ class VariableNames:
                 return self.program.globals[index][1].kind
             case LocalVariable(slot=slot) if slot in self.types:
                 return self.types[slot].kind
-            case TokenVariable(token=token, variable=variable) if variable >= FIRST_PARAMETER:
-                code = self.predicates.get(self.tokens.get(token, ("", ""))[1])
-                number = variable - FIRST_PARAMETER
-                return code.parameters[number].type.kind if code is not None and number < len(code.parameters) else ""
+            case TokenVariable(token=token, variable=variable):
+                parameter = self._parameter(self.tokens.get(token, ("", ""))[1], variable)
+                return parameter.type.kind if parameter is not None else ""
             case _:
                 return ""
 

@@ -36,20 +36,28 @@ _NAMED = {
 
 def numbers_beside(statement: Span, whole: Span) -> frozenset[float]:
     """The numbers that comments name which speak of a statement, or of the rule that is `whole`."""
-    source = statement.source
-    own = source.line(statement.line).partition("//")[2]
-    said = [own, *_above(source, statement.line), *_above(source, whole.line)]
-    found = {float(one) for text in said for one in _NUMBER.findall(text)}
+    said = [*_beside(statement), *_above(whole.source, whole.line)]
+    found = {one for text in said for one in numbers_in(text)}
     return frozenset(
         found | {float(_NAMED[one]) for text in said for one in _WORD.findall(text.lower()) if one in _NAMED}
     )
 
 
+def numbers_in(text: str) -> set[float]:
+    """The numbers that a text names in digits."""
+    return set(map(float, _NUMBER.findall(text)))
+
+
 def tells_rate(statement: Span) -> bool:
     """Whether a comment beside a statement speaks of so much per something: `Tonnes per tick`."""
+    return any(_PER.search(text) is not None for text in _beside(statement))
+
+
+def _beside(statement: Span) -> Iterator[str]:
+    """The comments in the first line of a statement, and right above it."""
     source = statement.source
-    said = [source.line(statement.line).partition("//")[2], *_above(source, statement.line)]
-    return any(_PER.search(text) is not None for text in said)
+    yield source.line(statement.line).partition("//")[2]
+    yield from _above(source, statement.line)
 
 
 def _above(source: Source, line: int) -> Iterator[str]:
