@@ -62,6 +62,16 @@ def test_a_sleeper_asks_anew_in_the_tick_in_which_its_owner_gives_up_what_its_pl
     assert brief(outcome) == brief(visited)
 
 
+def test_an_agent_file_gives_planners_the_steps_of_the_mission_file(tmp_path: Path) -> None:
+    agent = random_agent(45028, True, wide=True, ranks=True)  # one tick takes more than 50 steps
+    text = agent.agent_file()
+    assert text is not None
+    files = (agent.write(tmp_path), tmp_path / "agent.xml")
+    files[1].write_text(text)
+    flown = [brief(run_mission(*loaded(file), 1)) for file in files]
+    assert flown[0] == flown[1]
+
+
 def test_what_a_sleeper_takes_in_before_it_forgets_the_past_is_on_record(tmp_path: Path) -> None:
     agent, programs = loaded(random_agent(9400102, wide=True, rich=True, deep=True).write(tmp_path))
     outcome, record = record_mission(agent, programs, 1, until=75)

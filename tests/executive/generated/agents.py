@@ -188,7 +188,7 @@ class RandomAgent:
             return None
         text = [
             f'<Agent name="{self.name}" finalTick="{self.final_tick}">',
-            f'  <StepClock steps="{self.steps or 50}"/>',
+            f'  <StepClock steps="{self.steps}"/>' if self.steps else "  <FastClock/>",
         ]
         for one in self.reactors:
             steps = f' maxSteps="{one.max_steps}"' if one.max_steps is not None else ""
