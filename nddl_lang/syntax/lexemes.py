@@ -74,6 +74,7 @@ _TYPESET = {
     "&": "&&",
     "|": "||",
 }
+_LONGEST_INDENT = 200
 _BLANKS = ("Zs", "Cf", "Cc")  # categories of Unicode
 _DIRECTIVE_HELP = {
     "#define": "declare a variable: `int NAME = 5;`",
@@ -85,6 +86,8 @@ _DIRECTIVE_HELP = {
 
 def excerpt(text: str) -> str:
     """`text` in one short line, characters that cannot be seen by their number."""
+    if len(text) <= _EXCERPT and text.isprintable():
+        return text
     shown = "".join(letter if letter.isprintable() else f"U+{ord(letter):04X}" for letter in text[: _EXCERPT + 1])
     return shown if len(text) <= _EXCERPT else shown[:_EXCERPT] + "..."
 
@@ -265,9 +268,11 @@ def read_other(piece: Piece, start: int, word: str) -> str | None:
         piece.report(UNEXPECTED_CHARACTER, start, end, text=excerpt(word), help="write a blank", fixes=(fix,))
         return None
     help_text = _HELP.get(word)
-    text, at = piece.anchor.source.text, piece.anchor.offset + start
-    if not text[text.rfind("\n", 0, at) + 1 : at].strip() and word in _FIRST_HELP:
-        help_text = _FIRST_HELP[word]
+    at = piece.anchor.offset + start
+    if word in _FIRST_HELP:
+        before = piece.anchor.source.text[max(0, at - _LONGEST_INDENT) : at]
+        if not before[before.rfind("\n") + 1 :].strip():
+            help_text = _FIRST_HELP[word]
     if word == "%" and (share := _per_cent(piece, at)) is not None:
         written = f"{share:g}"
         span = piece.span(piece.starts[-1] - piece.anchor.offset, end)
