@@ -13,6 +13,7 @@ from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, Outcome, Reason, ReasonKind, SourcePlace
 
 _FAILED = "Failed"  # what the timelines of a lost reactor hold
+_OBSERVATION, _SAMPLE = EventKind.OBSERVATION, EventKind.SAMPLE  # most of a trace: to look these up takes time
 
 
 class GoalFate(StrEnum):
@@ -136,8 +137,11 @@ def losses_of(outcome: Outcome) -> Losses:
     killed: set[str] = set()
     lines: dict[int, str] = {}  # of goals
     for event in single_events(outcome.events):
+        kind = event.kind
+        if kind is _SAMPLE or (kind is _OBSERVATION and event.predicate != _FAILED):
+            continue
         number = event.request
-        match event.kind:
+        match kind:
             case EventKind.REQUEST if number is not None and number < 0:
                 goals[-1 - number] = GoalEnd(-1 - number, GoalFate.OPEN, event.tick)
                 lines[-1 - number] = event.timeline

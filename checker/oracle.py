@@ -18,6 +18,7 @@ _NO_RECORD = "F7"
 _BROKEN = "F11"
 _DEAD = "F8"
 _FAILED = "Failed"  # the predicate that a timeline holds whose owner is lost
+_KILL, _OBSERVATION = EventKind.KILL, EventKind.OBSERVATION  # to look these up takes time
 PROPERTY = "P1"
 _LIMIT_CODES = {Limit.REJECTED: "L1", Limit.LATE: "L2", Limit.REPAIRS: "L3", Limit.UNDELIVERED: "L4"}
 OUT_OF_TIME = "TIME"  # of an ERROR: the mission took longer than it may
@@ -93,9 +94,9 @@ def given_up(outcome: Outcome) -> Abort | None:
     """The abort, or the first reactor that was killed, told like one; None where nobody gave up."""
     if outcome.abort is not None:
         return outcome.abort
-    index, event = next((each for each in numbered(outcome.events) if each[1].kind is EventKind.KILL), (-1, None))
-    if event is None:
+    if all(event.kind is not _KILL for event in single_events(outcome.events)):
         return None
+    index, event = next(each for each in numbered(outcome.events) if each[1].kind is _KILL)
     assert event.reason is not None
     before = (one for at, one in numbered(outcome.events) if at < index and one.reactor == event.reactor)
     repairs = sum(one.kind is EventKind.RELAX for one in before)
@@ -107,7 +108,7 @@ def given_up(outcome: Outcome) -> Abort | None:
 
 def _dead(events: Sequence[Event]) -> Reason | None:
     """The first timeline that came to hold `Failed` though nobody was killed: an owner said so itself (T-REX 1.10)."""
-    said = [one for one in single_events(events) if one.kind is EventKind.OBSERVATION and one.predicate == _FAILED]
+    said = [one for one in single_events(events) if one.predicate == _FAILED and one.kind is _OBSERVATION]
     found = [(one.tick, one.timeline) for one in said]
     if isinstance(events, EventLog):
         found += events.first_in_runs(_FAILED)

@@ -68,7 +68,10 @@ class Told:
 
     def first_of(self, predicate: str) -> tuple[int, str] | None:
         """Tick and timeline of the first observation of a predicate, by name at one tick; None if there is none."""
-        is_meant = np.array([name == predicate for name in self.program.model.short_names])
+        names = self.program.model.short_names
+        if predicate not in names:
+            return None
+        is_meant = np.array([name == predicate for name in names])
         told = np.flatnonzero(is_meant.take(np.asarray(self.log.rows).take(self._starts() + KIND)))
         first = told[: len(self.program.model.lines)]  # among them all of the first tick
         return min((self.head(index)[:2] for index in first.tolist()), default=None)
