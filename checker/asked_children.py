@@ -4,6 +4,7 @@ What the rule says of its children, by the arguments of its own tokens: equaliti
 take. What cannot be worked out so excludes nothing.
 """
 
+import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from checker.single_values import single_value
@@ -37,6 +38,16 @@ def children_asked_for(
     return frozenset(slots), None
 
 
+def may_ask(
+    rule: RuleCode, slot: int, names: Sequence[str], request: Event, numbers: Mapping[Operand, float | str]
+) -> bool:
+    """Whether nothing that a rule says whatever its token's arguments are contradicts that a child was the request.
+
+    `names` are the parameters of the child's predicate.
+    """
+    return _fits(rule, slot, {**numbers, **_arguments(slot, names, request)})
+
+
 def _arguments(slot: int, names: Sequence[str], event: Event) -> _Known:
     """The arguments of an event that have one value, as the variables of the token in a slot."""
     values = {name: single_value(domain) for name, domain in event.arguments}
@@ -49,6 +60,11 @@ def _arguments(slot: int, names: Sequence[str], event: Event) -> _Known:
 
 def _fits(rule: RuleCode, slot: int, known: _Known) -> bool:
     """Whether nothing that the rule says contradicts the values, and the branch of the child is taken."""
+    steps = branched_instructions(rule.body)
+    own = next((within for step, within in steps if isinstance(step, Child) and step.slot == slot), ())
+    for guard, is_else in own:
+        if known.setdefault(guard.condition, not is_else) is is_else:
+            return False
     grows = True
     while grows:
         count = len(known)
@@ -87,7 +103,18 @@ def _agrees(post: Post, known: _Known) -> bool:
             continue
         operand = post.operands[at]
         if isinstance(operand, LocalVariable):
-            value = known.setdefault(operand, value)
-        if values[at] not in (None, value):
+            known.setdefault(operand, value)
+        if not _may_be_equal(values[at], value):
             return False
     return True
+
+
+def _may_be_equal(one: _Value | None, other: _Value) -> bool:
+    """Whether two values are one but for rounding; anything may be what is not known."""
+    match one, other:
+        case None, _:
+            return True
+        case ((float() | int()), (float() | int())):
+            return math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-9)
+        case _:
+            return one == other

@@ -3,11 +3,13 @@
 The elements of a conflict hang together by the variables they share. Workers read this file for each mission.
 """
 
+import math
 from dataclasses import dataclass
 
 from compiler.program import TOKEN_TIMES
 from runtime.executive.outcome import Conflict, ConflictElement, ElementKind, SourcePlace
 from runtime.plan.readout.names import VariableName
+from runtime.plan.readout.statements import Term
 
 # Kinds of elements that no line of the model can help.
 _WORLD = (
@@ -108,6 +110,15 @@ def is_of_values(conflict: Conflict) -> bool:
     return not any(
         _is_timed(element) or (element.kind in _BOUNDING and _is_limit(element)) for element in conflict.elements
     )
+
+
+def is_unbounded(element: ConflictElement) -> bool:
+    """Whether it says of a variable that it may be anything: the lines about it tell what it is."""
+    match element.says:
+        case Term("bounds", (_, lower, upper), ()):
+            return lower == -math.inf and upper == math.inf
+        case _:
+            return False
 
 
 def in_telling_order(conflict: Conflict, last: int) -> list[int]:

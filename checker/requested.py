@@ -4,11 +4,12 @@ A static slice, against the way of the value: from the argument of a child throu
 parameters of its own token, and on through the rules that ask for that token, in whatever reactor.
 """
 
+from collections import Counter
 from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from checker.asked_children import children_asked_for
+from checker.asked_children import children_asked_for, may_ask
 from checker.influence import Branch, InfluenceLine, branch_name, branch_of, line_of
 from checker.names import relative_name
 from checker.single_values import numbers_of, single_value
@@ -278,6 +279,9 @@ def _asking(
     at = _position(program, predicate, name)
     children = {step.slot for step in body if isinstance(step, Child) and step.predicate == predicate}
     token: Event | None = None
+    if request is not None:
+        theirs = _names(program, predicate)
+        children = {slot for slot in children if may_ask(rule, slot, theirs, request, numbers)}
     if request is not None and children:
         tokens = [one for one in single_events(events) if _tells_of(one, rule)]
         parameters = _names(program, rule.predicate), _names(program, predicate)
@@ -296,6 +300,7 @@ def _asking(
             elif isinstance(step, NewVariable) and step.copy_of is not None and LocalVariable(step.slot) in reached:
                 grows = grows or step.copy_of not in reached
                 reached.add(step.copy_of)
+    _drop_uses(posts, children)
     own = {one.variable for post in posts for one in post.operands if isinstance(one, TokenVariable) and one.token == 0}
     own |= {one.variable for one in reached if isinstance(one, TokenVariable) and one.token == 0}
     names = _names(program, rule.predicate)
@@ -312,6 +317,29 @@ def _asking(
     return _Asking(
         rule.predicate, tuple(lines), tuple(behind), frozenset(handed), tuple(_passed(program, rule, predicate)), token
     )
+
+
+def _drop_uses(posts: list[Post], children: Collection[int]) -> None:
+    """Leave out what only goes on from the value: its product that nothing else says, what another child gets of it."""
+    is_less = True
+    while is_less:
+        many = Counter(one for post in posts for one in set(post.operands))
+        used = [post for post in posts if (end := _result(post, children)) is not None and many[end] == 1]
+        for post in used:
+            posts.remove(post)
+        is_less = bool(used)
+
+
+def _result(post: Post, children: Collection[int]) -> Operand | None:
+    """What a constraint may give its value to: a local variable, or a parameter of a child that is none of some."""
+    at_end = () if len(post.operands) < 3 else post.operands[:1] if post.name.startswith("test") else post.operands[-1:]
+    gives = post.operands if post.name == _EQUAL else at_end
+    for one in gives:
+        if isinstance(one, TokenVariable) and one.token and one.token not in children:
+            return one
+        if isinstance(one, LocalVariable) and post.name != _EQUAL:
+            return one
+    return None
 
 
 def _passed(program: Program, rule: RuleCode, predicate: str) -> Iterator[tuple[str, str]]:

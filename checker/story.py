@@ -18,7 +18,7 @@ from checker.causes import (
 )
 from checker.counterfactual.goals_behind import asking_for, promised_goals
 from checker.counterfactual.promises import first_violated, of_first_violated
-from checker.culprit import culprit_of, in_telling_order
+from checker.culprit import culprit_of, in_telling_order, is_unbounded
 from checker.findings import Fault
 from checker.influence import Branch, Influence, parameters_that_choose
 from checker.oracle import Judgement, given_up
@@ -248,6 +248,7 @@ def _conflict(
         and number in needed
         and element.kind is not ElementKind.SAMPLE
         and not _is_only_resource(element, conflict)
+        and not is_unbounded(element)
         and (element.place is None or element.place not in culprit.limits)
     ]
     if culprit.element is not None:

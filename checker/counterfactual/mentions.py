@@ -25,6 +25,7 @@ _LOCAL, _CHILD = 1.5, 0.5  # what a mention of a local variable counts, and of a
 _NAMING = (EditKind.NAME, EditKind.POINT, EditKind.TOKEN)
 _OWN_END = ("end", "duration")
 _CALL = re.compile(r"\s*\w+\s*\(")
+_SIDES = re.compile(r"([^=<>!]+)==([^=<>!]+);")
 _SAME = re.compile(r"\s*([\w.]+)\s*==\s*([\w.]+)\s*;")
 
 
@@ -42,6 +43,7 @@ class Mentions:
         self._set: dict[object, Counter[str]] = defaultdict(Counter)
         self._read: dict[object, Counter[str]] = defaultdict(Counter)
         self._called: dict[object, Counter[str]] = defaultdict(Counter)  # by constraints, which may set them too
+        self._worked_out: dict[object, set[str]] = defaultdict(set)  # by equations: `bales * 2 == lot.tonnes`
         self._declared: dict[str, set[str]] = defaultdict(set)
         self._of_rule: dict[str, Counter[str]] = defaultdict(Counter)
         self._predicates: dict[object, dict[str, str]] = defaultdict(dict)  # of the tokens of a rule, by their labels
@@ -73,6 +75,8 @@ class Mentions:
                 self._read[scope][name] += 1
                 self._called[scope][name] += skipped == 0 and _CALL.match(text) is not None
             self._of_rule[site.rule].update(_PATH.findall(text))
+            if (sides := _SIDES.fullmatch(text)) is not None:
+                self._worked_out[scope].update(_unknowns(sides.group(1), sides.group(2), self._classes[scope]))
             if (sides := _SAME.fullmatch(text)) is not None:
                 for one, other in (sides.groups(), sides.groups()[::-1]):
                     self._same_as[scope][one].add(other)
@@ -99,7 +103,7 @@ class Mentions:
         if declared is None or declared.group(2) is not None or not site.text.startswith(_NUMBERS):
             return ""
         scope, name = _scope(site), declared.group(1)
-        is_set = self._set[scope][name] or self._called[scope][name]
+        is_set = self._set[scope][name] or self._called[scope][name] or name in self._worked_out[scope]
         return name if self._read[scope][name] and not is_set else ""
 
     def is_found_out(self, name: str, site: EditSite) -> bool:
@@ -213,6 +217,14 @@ def leaves_one(edit: SmallEdit) -> bool:
     """Whether a name stands in what an edit leaves out of an expression and in what it keeps."""
     left_out = Counter(_PATH.findall(edit.old)) - Counter(_PATH.findall(edit.new))
     return any(name in left_out for name in _PATH.findall(edit.new))
+
+
+def _unknowns(left: str, right: str, objects: Container[str]) -> list[str]:
+    """What an equation may say the value of: what stands on its left in more than a name, or opposite an object's."""
+    if _PATH.fullmatch(left.strip()) is None:
+        return _PATH.findall(left)
+    owner, dot, _ = left.strip().partition(".")
+    return _PATH.findall(right) if dot and owner in objects else []
 
 
 def _scope(site: EditSite) -> object:

@@ -2,12 +2,12 @@
 
 import pytest
 
-from checker.asked_children import children_asked_for
+from checker.asked_children import children_asked_for, may_ask
 from checker.single_values import numbers_of, single_value
 from compiler.instructions import all_instructions
 from compiler.program import Child
 from runtime.executive.configuration import GoalConfiguration
-from runtime.executive.outcome import EventKind
+from runtime.executive.outcome import Event, EventKind
 from tests.executive.flying import fly, planner, program, simulator
 
 DEV = """
@@ -63,12 +63,26 @@ def test_the_child_is_found_by_values_and_branches(n: int, split: bool, asked: d
     assert found == asked
 
 
+def asked_of_dev(n: int, m: int) -> list[Event]:
+    goal = GoalConfiguration("dev", "On", start=(3, 9), parameters=(("n", n), ("m", m)))
+    world = simulator("sim", f"{DEV} Dev::On {{ duration == 5; }} Dev dev = new Dev(Internal); close();", "dev")
+    return [one for one in fly(world, until=9, goals=(goal,)).events if one.kind is EventKind.REQUEST]
+
+
+@pytest.mark.parametrize(("m", "may"), [(1, True), (2, False)])
+def test_a_rule_that_gives_another_argument_in_any_case_did_not_ask(m: int, may: bool) -> None:
+    plan = program("plan.nddl", PLAN)
+    (rule,) = plan.rules
+    (request,) = asked_of_dev(n=7, m=m)
+    children = [one.slot for one in all_instructions(rule.body) if isinstance(one, Child)]
+    numbers = dict(numbers_of(plan))
+    assert [may_ask(rule, one, ("n", "m"), request, numbers) for one in children] == [may] * 3
+
+
 def test_where_no_child_fits_all_count() -> None:
     plan = program("plan.nddl", PLAN)
     (rule,) = plan.rules
-    goal = GoalConfiguration("dev", "On", start=(3, 9), parameters=(("n", 7), ("m", 1)))
-    world = simulator("sim", f"{DEV} Dev::On {{ duration == 5; }} Dev dev = new Dev(Internal); close();", "dev")
-    (request,) = [one for one in fly(world, until=9, goals=(goal,)).events if one.kind is EventKind.REQUEST]
+    (request,) = asked_of_dev(n=7, m=1)
     children = [one.slot for one in all_instructions(rule.body) if isinstance(one, Child)]
     slots, token = children_asked_for(rule, children, (("n", "split"), ("n", "m")), request, (), {})
     assert len(slots) == 3

@@ -37,7 +37,12 @@ Survey::Home { contains(Thruster.Drive drive); drive.distance == 10.0; }
 """
 
 
-@pytest.mark.parametrize("asking", ["drive.distance == length + length;", BRANCHES])
+# What goes on from the argument does not say what it is.
+USES = """drive.distance == length + length;
+    float used, more; used == drive.distance * 2.0; more == used + 1.0;"""
+
+
+@pytest.mark.parametrize("asking", ["drive.distance == length + length;", BRANCHES, USES])
 def test_the_line_of_the_planner_is_told_that_asked_a_simulator_for_too_much(asking: str) -> None:
     mission, found = read_mission(TEMPLATE / "mission.toml")
     assert mission is not None, found

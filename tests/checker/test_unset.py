@@ -31,13 +31,20 @@ def test_a_constant_without_a_value_is_named_where_it_is_declared(tmp_path: Path
     assert [(one.candidate.site.first, one.variable) for one in found if one.is_unset] == [(1, "LONG")]
 
 
-LOCALS = """class T extends Timeline { predicate P { float a; float b; } }
+LOCALS = """class Lot { float weight; Lot(float w) { weight = w; } }
+class T extends Timeline { predicate P { float a; float b; } }
 T::P {
     float lost;
     float kept;
     float idle;
+    float bales;
+    float rolls;
+    Lot lot;
     kept == 2.0 * b;
     a == lost + kept;
+    bales * 2.0 == lot.weight;
+    lot.weight == rolls * 3.0;
+    a >= bales + rolls;
 }
 """
 
@@ -46,7 +53,7 @@ def test_a_local_variable_that_lines_read_and_none_sets_is_named(tmp_path: Path)
     (tmp_path / "m.nddl").write_text(LOCALS, encoding="utf-8")
     sites = sites_of(load_graph(tmp_path / "m.nddl", ()))
     found = loose_ends(Dependence((), sites), (), usage_of(sites))
-    assert [(one.candidate.site.first, one.variable) for one in found if one.is_unset] == [(3, "lost")]
+    assert [(one.candidate.site.first, one.variable) for one in found if one.is_unset] == [(4, "lost")]
 
 
 CHOSEN = """class Gate { int side; float width; Gate(int s, float w) { side = s; width = w; } }
