@@ -11,13 +11,15 @@ cdef class RowBlock:
     cdef public double[::1] store, latest, texts, object_texts, cells, drawn
     cdef public long long[::1] starts, ends, standing, predicates, objects, values, row_of
     cdef public long long[::1] code, rows, shown, first, child_keys, token_rows, token_stands, argument
+    cdef public long long[::1] least, most
     cdef public long long[::1] now_judged, now_open, fails, sides
     cdef public unsigned char[::1] begun, planned, tables, holds
     cdef public long long store_count, key_count, symbol_count, length, child_count, count, judged, open
 
     cpdef int put(self, long long at, long long row) except -1
 
-    cpdef double known(self, double value, long long kind) except? -1
+    @cython.locals(least="long long", most="long long", i="long long", place="long long")
+    cpdef int span(self, long long token, long long first, long long last) except -1
 
     @cython.locals(gap="double", margin="double")
     cpdef bint is_near(self, double x, double y) except -1

@@ -42,6 +42,7 @@ class RowBlock:
         self.token_rows = np.zeros(MOST_TOKENS * BLOCK, np.int64)
         self.token_stands = np.zeros(MOST_TOKENS * BLOCK, np.int64)
         self.argument = np.zeros(MOST_TOKENS * BLOCK, np.int64)
+        self.least, self.most = np.zeros(MOST_TOKENS, np.int64), np.zeros(MOST_TOKENS, np.int64)  # of `argument`
         self.now_judged, self.now_open = np.zeros(BLOCK, np.int64), np.zeros(BLOCK, np.int64)
         self.fails = np.zeros(BLOCK, np.int64)
         self.sides = np.zeros((MOST_GUARDS + 1) * BLOCK, np.int64)
@@ -56,17 +57,17 @@ class RowBlock:
         self.argument[at] = self.values[stands]
         return 0
 
-    def known(self, value: float, kind: int) -> float:
-        """A value as the record has it: 0 a real, 1 a whole number, 2 a truth value, 3 a name."""
-        if kind == 0 or value != value:
-            return value
-        if kind == 1:
-            return float(math.trunc(value)) if value - value == 0.0 else _NAN
-        if kind == 2:
-            return 1.0 if value != 0.0 else 0.0
-        if value < 0.0 or value >= self.symbol_count:
-            return _NAN
-        return float(self.texts[int(value)])
+    def span(self, token: int, first: int, last: int) -> int:
+        """Note between which places the arguments of a token begin, in some rows: none is looked at one by one then."""
+        least = most = self.argument[BLOCK * token + first]
+        for i in range(BLOCK * token + first + 1, BLOCK * token + last):
+            place = self.argument[i]
+            if place < least:
+                least = place
+            if place > most:
+                most = place
+        self.least[token], self.most[token] = least, most
+        return 0
 
     def is_near(self, x: float, y: float) -> bool:
         """Whether two reals are equal within the judge's tolerance."""
@@ -129,4 +130,4 @@ class RowBlock:
             ):
                 self.fails[i] = 1
             self.put(out + i, row)
-        return 0
+        return self.span(self.code[at + 1], first, last)

@@ -27,11 +27,11 @@ cdef class RowEvaluator(RowBlock):
 
     @cython.locals(
         op="long long", out="long long", a="long long", b="long long", more="long long", i="long long",
-        place="long long", x="double", y="double"
+        place="long long", token="long long", x="double", y="double"
     )
     cpdef int read(self, long long at, long long begin, long long first, long long last) except -1
 
-    @cython.locals(i="long long", x="double")
+    @cython.locals(i="long long", k="long long", x="double")
     cpdef int translate(self, long long out, long long first, long long last, long long kind) except -1
 
     @cython.locals(

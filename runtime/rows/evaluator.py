@@ -35,6 +35,7 @@ class RowEvaluator(RowBlock):
                 self.now_open[i] = 0
                 self.fails[i] = 0
                 self.put(i, self.rows[begin + i])
+            self.span(0, 0, many)
             self.evaluate(0, self.length, begin, 0, many, 0)
             for i in range(many):
                 if not self.fails[i]:
@@ -112,10 +113,15 @@ class RowEvaluator(RowBlock):
         op, more = self.code[at], self.code[at + 4]
         out, a, b = BLOCK * self.code[at + 1], BLOCK * self.code[at + 2], self.code[at + 3]
         if op == 0:  # PARAMETER of a token: token, number, kind
-            for i in range(first, last):
-                place = self.argument[a + i]
-                x = self.store[place + b] if place >= 0 and place + b < self.store_count else _NAN
-                self.cells[out + i] = x
+            token = self.code[at + 2]
+            if self.least[token] >= 0 and self.most[token] + b < self.store_count:
+                for i in range(first, last):
+                    self.cells[out + i] = self.store[self.argument[a + i] + b]
+            else:
+                for i in range(first, last):
+                    place = self.argument[a + i]
+                    x = self.store[place + b] if place >= 0 and place + b < self.store_count else _NAN
+                    self.cells[out + i] = x
             if more:
                 self.translate(out, first, last, more)
         elif op == 1:  # LOCAL: place, kind
@@ -156,14 +162,27 @@ class RowEvaluator(RowBlock):
         return 0
 
     def translate(self, out: int, first: int, last: int, kind: int) -> int:
-        """Values that were read, as the record has them."""
-        if kind == 2:
+        """Values that were read, as the record has them: 1 a whole number, 2 a truth value, 3 a name."""
+        if kind == 1:
+            for i in range(first, last):
+                x = self.cells[out + i]
+                if x >= -_EXACT and x <= _EXACT:
+                    k = int(x)
+                    self.cells[out + i] = float(k)
+                elif x - x != 0.0:  # beyond that range all are whole numbers
+                    self.cells[out + i] = _NAN
+        elif kind == 2:
             for i in range(first, last):
                 x = self.cells[out + i]
                 self.cells[out + i] = x if x == 0.0 or x != x else 1.0
         else:
             for i in range(first, last):
-                self.cells[out + i] = self.known(self.cells[out + i], kind)
+                x = self.cells[out + i]
+                if x >= 0.0 and x < self.symbol_count:
+                    k = int(x)
+                    self.cells[out + i] = self.texts[k]
+                else:
+                    self.cells[out + i] = _NAN
         return 0
 
     def check(self, at: int, first: int, last: int) -> int:
@@ -182,7 +201,11 @@ class RowEvaluator(RowBlock):
             b = self.code[at + 3]
             for i in range(first, last):
                 x = self.cells[a + i]
-                self.fails[i] |= x != x or not self.tables[b + int(x)]
+                if x == x:
+                    k = int(x)
+                    self.fails[i] |= not self.tables[b + k]
+                else:
+                    self.fails[i] = 1
         elif op == 13:  # WITHIN: value, first of two bounds
             for i in range(first, last):
                 x = self.cells[a + i]
