@@ -18,7 +18,7 @@ from checker.models import ModelSet
 from checker.names import relative_name
 from compiler.program import Guard, Instruction, ObjectLoop, Program, RuleCode
 from nddl_lang.text.source import Span
-from runtime.executive.columns import GuardColumns, RunColumns, TokenColumns
+from runtime.executive.columns import GuardOutline, RunColumns, TokenColumns
 from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, SourcePlace
 from runtime.executive.record import BodyRun, GuardRun, MissionRecord, ReactorRecord
@@ -104,13 +104,13 @@ class _Sites:
         forks, loops = at.guards, at.looped
         if not forks:
             return
-        guards: Sequence[GuardRun | GuardColumns] = run.guards
+        guards: Sequence[GuardRun | GuardOutline] = run.guards if isinstance(run, BodyRun) else run.outline.guards
         if loops:  # the guards of the loop stand once per object
             before = next(number for number, fork in enumerate(forks) if fork.is_looped)
             rounds = (len(guards) - (len(forks) - loops)) // loops
             forks = (*forks[:before], *forks[before : before + loops] * max(rounds, 0), *forks[before + loops :])
         for fork, guard in zip(forks, guards, strict=False):
-            for branch, inner in _taken(fork, guard):
+            for branch, inner in _taken(fork, run, guard):
                 if inner is None:
                     found.add(branch.site)
                 else:
@@ -122,16 +122,19 @@ def _made(site: int, forks: Iterator[_Fork]) -> _Branch:
     return _Branch(site, guards, sum(fork.is_looped for fork in guards))
 
 
-def _taken(fork: _Fork, guard: GuardRun | GuardColumns) -> tuple[tuple[_Branch, BodyRun | RunColumns | None], ...]:
+def _taken(
+    fork: _Fork, run: BodyRun | RunColumns, guard: GuardRun | GuardOutline
+) -> tuple[tuple[_Branch, BodyRun | RunColumns | None], ...]:
     """The branches of a guard that were taken, and what ran there."""
     if isinstance(guard, GuardRun):
         if guard.branch == "then":
             return ((fork.then, guard.run),)
         return ((fork.otherwise, guard.run),) if guard.branch == "else" else ()
-    then, otherwise = (fork.then, guard.then), (fork.otherwise, guard.otherwise)
-    if guard.is_true.all():
-        return (then,) if len(guard.is_true) else ()
-    return (then, otherwise) if guard.is_true.any() else (otherwise,)
+    assert isinstance(run, RunColumns)
+    is_true = run.came_true(guard)
+    sides = ((fork.then, guard.then, is_true), (fork.otherwise, guard.otherwise, ~is_true))
+    # Which runs took a branch counts only where it has guards itself.
+    return tuple([(at, run.branch(body, taken) if at.guards else None) for at, body, taken in sides if taken.any()])
 
 
 class Universe:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from math import nan
 
 import numpy as np
 
@@ -84,8 +85,10 @@ def count_held(
 
 def _listed(arguments: StoredValues, symbols: Sequence[str]) -> list[tuple[Value, ...]]:
     """Arguments row by row; what was left open is not a number, and equals nothing."""
-    store, width = arguments.store, len(arguments.kinds)
-    table = [store[first : first + width].tolist() for first in arguments.first.tolist()]
+    store, first, width = arguments.store, arguments.first, len(arguments.kinds)
+    if len(first) and not 0 <= first.min() <= first.max() <= len(store) - width:
+        return [(nan,)] * len(first)
+    table = store.take(first[:, np.newaxis] + np.arange(width)).tolist()
     names = [k for k, kind in enumerate(arguments.kinds) if kind not in _NUMBERS]
     for row in table:
         for k in names:

@@ -167,13 +167,15 @@ class _Trace:
         for source, each in self.columns:
             found.setdefault(each.timeline, Publications()).columns.append((source, each))
         for event in self.events:
-            one = event
+            one, known = event, found.get(event.timeline)
             if event.predicate == "Failed" and (event.tick, event.reactor) in self.deaths:
                 if event.reactor == reactor:
                     continue
                 if event.phase is Phase.DELIBERATE:
                     one = replace(event, tick=event.tick + 1)
-            found.setdefault(event.timeline, Publications()).single.append(one)
+            if known is None:
+                known = found[event.timeline] = Publications()
+            known.single.append(one)
         return found
 
 

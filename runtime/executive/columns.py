@@ -114,10 +114,15 @@ class RunColumns(NamedTuple):
         return tuple([self._guard(each) for each in self.outline.guards])
 
     def _guard(self, guard: GuardOutline) -> GuardColumns:
-        is_true = self.store.take(self.shown + guard.place) != 0.0
-        return GuardColumns(is_true, self._branch(guard.then, is_true), self._branch(guard.otherwise, ~is_true))
+        is_true = self.came_true(guard)
+        return GuardColumns(is_true, self.branch(guard.then, is_true), self.branch(guard.otherwise, ~is_true))
 
-    def _branch(self, outline: RunOutline | None, is_taken: Array) -> "RunColumns | None":
+    def came_true(self, guard: GuardOutline) -> Array:
+        """In which of the runs a guard was true."""
+        found: Array = self.store.take(self.shown + guard.place) != 0.0
+        return found
+
+    def branch(self, outline: RunOutline | None, is_taken: Array) -> "RunColumns | None":
         """What a branch did in those of the runs that took it."""
         if outline is None or not is_taken.any():
             return None

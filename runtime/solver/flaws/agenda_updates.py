@@ -211,6 +211,8 @@ def _update_domain(agenda: Agenda, v: int) -> int:
 def _kind_of(agenda: Agenda, t: int) -> int:
     """The kind of a token by predicate, parent, relation, name, and whether it may be rejected."""
     rows = agenda.rows
+    if agenda.table.by_predicate and agenda.table.kind_of_predicate[rows.predicate[t]] != NONE:
+        return agenda.table.kind_of_predicate[rows.predicate[t]]
     parent = rows.parent[t]
     asker = rows.predicate[parent] if parent >= 0 else NONE
     rejectable = rows.flags[t] & FLAG_REJECTABLE != 0
