@@ -23,8 +23,10 @@ from checker.solver_fit import solver_misfits
 from compiler.lower import compile_model
 from compiler.program import ParameterSite, Program
 from nddl_lang.analysis import Analysis, analyse
+from nddl_lang.lint.codes import UNCLOSED
 from nddl_lang.lint.configuration import settings_in
 from nddl_lang.lint.linter import lint
+from nddl_lang.lint.scripts import unclosed_in_mission
 from nddl_lang.repair import repaired
 from nddl_lang.semantics.callables import Callables
 from nddl_lang.syntax.includes import OpenText
@@ -127,8 +129,10 @@ def load_models(mission: Mission, open_text: OpenText = read_text, *, is_linted:
     misfits += property_misfits(mission, programs)
     if mission.figures is not None:
         misfits += figure_misfits(mission.figures, mission.text, agent, programs)
+    unclosed = [one for each in analyses.values() for one in _chosen(each, unclosed_in_mission(each))]
+    misfits += {_place_of(one): one for one in unclosed}.values()
     completed = complete(mission, sites)
-    late = (*goals_out_of_time(agent, mission.text), *(one for one in misfits if one.code is OUT_OF_TIME))
+    late = (*goals_out_of_time(agent, mission.text), *(one for one in misfits if one.code in _WARNED))
     findings = (*_findings(analyses.values(), found), *late) if is_linted else ()
     return ModelSet(
         completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits), findings
@@ -144,6 +148,7 @@ def _opened(path: Path, open_text: OpenText) -> Source:
 
 
 _Place = tuple[str, int, str, str]
+_WARNED = frozenset((OUT_OF_TIME, UNCLOSED))
 
 
 def _place_of(one: Diagnostic) -> _Place:
@@ -155,12 +160,16 @@ def _findings(analyses: Iterable[Analysis], known: Container[_Place]) -> Iterato
     """What lint warns of by the settings of each model's project, but for what is `known`; each finding once."""
     told: set[_Place] = set()
     for analysis in analyses:
-        settings = settings_in(Path(analysis.loaded.root.name).parent)
-        for one in settings.choose(lint(analysis)):
+        for one in _chosen(analysis, lint(analysis)):
             place = _place_of(one)
             if one.severity is Severity.WARNING and place not in known and place not in told:
                 told.add(place)
                 yield one
+
+
+def _chosen(analysis: Analysis, found: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+    """What the project of a model wants to hear."""
+    return settings_in(Path(analysis.loaded.root.name).parent).choose(found)
 
 
 def _analyse_models(agent: AgentConfiguration, callables: Callables, open_text: OpenText) -> dict[str, Analysis]:

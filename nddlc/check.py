@@ -48,7 +48,7 @@ from nddlc.keeping import keep_findings, keep_pages, sought_before
 from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.mission_trust import models_of
-from nddlc.one_mission import warnings_page
+from nddlc.one_mission import untold, warnings_page
 from nddlc.progress import Display
 from nddlc.samplers import find_sampler
 from nddlc.seeking import SeekingDisplay
@@ -227,7 +227,8 @@ def _prepare(
         return None
     if style == "text":
         weighty = (Severity.ERROR, Severity.WARNING)
-        _tell(tuple(one for one in (*found, *models.diagnostics) if one.severity in weighty), style)
+        told = untold((*found, *models.diagnostics), models)
+        _tell(tuple(one for one in told if one.severity in weighty), style)
         say(warnings_page(models))
     return Campaign(mission, models, pinned(models))
 

@@ -225,7 +225,10 @@ def _summary(found: Sequence[Diagnostic], files: Sequence[str]) -> str:
     paths = [Path(each) for each in files]
     missions = [each for each in paths if each.suffix in MISSION_SUFFIXES and each.name not in (NAME, PROJECT)]
     more = ""
-    if missions and not counts[Severity.ERROR] and all(each.suffix in MISSION_SUFFIXES for each in paths):
+    are_missions = all(
+        each.suffix in MISSION_SUFFIXES for each in (*paths, *(Path(one.span.source.name) for one in found))
+    )
+    if missions and not counts[Severity.ERROR] and are_missions:
         more = f" (of its models only errors are told; `nddlc lint {missions[0].parent}` has their warnings)"
     return f"{', '.join(words) or 'nothing wrong'} in {_counted(len(files), 'file')}{more}"
 

@@ -40,7 +40,7 @@ def prepare(
         _tell(found)
         raise Unusable("the mission file is in error: nothing was flown")
     models = models_of(mission, is_trusted=is_trusted, is_named=is_named, is_linted=is_linted)
-    _tell((*found, *models.diagnostics))
+    _tell(untold((*found, *models.diagnostics), models))
     if models.has_errors:
         raise Unusable("the models are in error: nothing was flown")
     click.echo(fitted(warnings_page(models), columns()), nl=False, err=True)
@@ -51,6 +51,14 @@ def _tell(diagnostics: tuple[Diagnostic, ...]) -> None:
     for one in diagnostics:
         if one.severity in (Severity.ERROR, Severity.WARNING):
             click.echo(fitted(render(one, colour=colours()), columns()), err=True)
+
+
+def untold(found: tuple[Diagnostic, ...], models: ModelSet) -> tuple[Diagnostic, ...]:
+    """What is to be told in full: all but what `warnings_page` tells in short."""
+    if models.has_errors:
+        return found
+    told = {(one.span.source.name, one.span.begin, one.code.id) for one in models.findings[:_MOST_WARNINGS]}
+    return tuple(one for one in found if (one.span.source.name, one.span.begin, one.code.id) not in told)
 
 
 def warnings_page(models: ModelSet) -> str:

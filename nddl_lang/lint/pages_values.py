@@ -66,7 +66,7 @@ VALUE_PAGES = (
     ),
     RulePage(
         UNCLOSED,
-        "The model has goals and variables that range over objects, and closes no class.",
+        "The model has goals, or a mission flies it; it has variables that range over objects, and closes no class.",
         "While further objects may join, no search decides which one is taken.",
         _ARM + "Arm helper;\nhelper != arm;\ngoal(arm.grab g);\n",
         _ARM + "Arm helper;\nhelper != arm;\nclose();\ngoal(arm.grab g);\n",

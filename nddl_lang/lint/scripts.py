@@ -2,12 +2,15 @@
 
 from collections.abc import Iterator
 
+from nddl_lang.analysis import Analysis
 from nddl_lang.lint.codes import IDLE_FACT, NEVER_PLANNED, NO_MERGE, OUTSIDE_HORIZON, UNCLOSED
 from nddl_lang.lint.part import Part
+from nddl_lang.lint.suppression import suppress
 from nddl_lang.lint.whole import Whole, hull_of
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.literals import number
 from nddl_lang.semantics.schema import (
+    GlobalReference,
     Interval,
     Kind,
     Label,
@@ -16,14 +19,19 @@ from nddl_lang.semantics.schema import (
 )
 from nddl_lang.syntax.nodes import (
     Assignment,
+    BinaryExpr,
     ClassDecl,
+    ExprConstraint,
     GoalStatement,
     MethodCall,
     NewExpr,
+    PathExpr,
     PredicateDecl,
+    RuleDecl,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Diagnostic, Note
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
+from nddl_lang.text.source import Span
 
 _DEFAULT_HORIZON = Interval(0, 100)
 
@@ -158,6 +166,48 @@ def _unclosed(whole: Whole, first: Part) -> Iterator[Diagnostic]:
     if choices:
         notes = (Note(f"`{choices[0].name}` waits for that", choices[0].span),)
         yield UNCLOSED.at(first.node.span, notes=notes, help="write `close();` after the last object is made")
+
+
+def unclosed_in_mission(analysis: Analysis) -> tuple[Diagnostic, ...]:
+    """Tell of a model without goals of its own that a mission flies, where rules leave open which object is meant."""
+    parts = [Part(node, analysis.by_statement[node], analysis.dialect) for node in analysis.statements]
+    statements = [each.node for each in parts]
+    if any(
+        isinstance(node, GoalStatement) or (isinstance(node, MethodCall) and node.method.name == "close")
+        for node in statements
+    ):
+        return ()  # with goals of its own `lint_script` says it
+    makers = [each.node for each in parts if isinstance(each.node, VariableDecl | Assignment) and each.all(NewExpr)]
+    choices = [variable for each in parts if isinstance(each.node, RuleDecl) for variable in _chosen_in(each)]
+    if not makers or not choices:
+        return ()
+    last = next((one for one in reversed(makers) if one.span.source is analysis.loaded.root), makers[-1])
+    after = Span(last.span.anchor, last.span.end, last.span.end)
+    fix = Fix("close the classes here", (Edit(after, "\nclose();"),), safe=False)
+    notes = (Note(f"`{choices[0].name}` waits for that", choices[0].span),)
+    help_ = "write `close();` after the last object is made"
+    found = UNCLOSED.at(last.span, notes=notes, help=help_, fixes=(fix,))
+    return suppress(analysis, (found,), is_linted=False)
+
+
+def _chosen_in(part: Part) -> Iterator[Variable]:
+    """The variables of a rule that may be one of several objects, and that no `==` says it is."""
+    said: set[object] = set()
+    for constraint in part.all(ExprConstraint):
+        expression = constraint.expression
+        if isinstance(expression, BinaryExpr) and expression.op == "==":
+            sides = [
+                part.reference(each) if isinstance(each, PathExpr) else None
+                for each in (expression.left, expression.right)
+            ]
+            if None not in sides:
+                said.update(getattr(each, "variable", None) for each in sides if not isinstance(each, GlobalReference))
+    for declaration in part.all(VariableDecl):
+        for declarator in declaration.declarators:
+            variable = part.tables.declared.get(declarator.name)
+            is_given = declarator.initialiser is not None or variable in said
+            if isinstance(variable, Variable) and variable.type.kind is Kind.OBJECT and not is_given:
+                yield variable
 
 
 def _is_parameter(part: Part, declaration: VariableDecl) -> bool:

@@ -152,4 +152,12 @@ SLIPS_OF_NEWCOMERS = (
         "new Vat(Internal)",
     ),
     Mistake("brewery/plant.nddl", "bool slow;", "bool slow; return ceil(time);", "a rule gives nothing back"),
+    # Whole lines that are missing, or stand for others.
+    Mistake(
+        SPANS,
+        "Pad pad = new Pad(External);\nclose();",
+        "Pad pad = new Pad(External);",
+        "write `close();` after the last object is made",
+        "new Pad(External)",
+    ),
 )
