@@ -181,7 +181,7 @@ def _fate(
                 return PropertyFate(one.name, True, None, math.inf)
             if best <= last:
                 return PropertyFate(one.name, True, None, last - best)
-            seen = _seen_instead(pattern, held, first)
+            seen = _seen_instead(pattern, held, first, last_tick)
             return PropertyFate(one.name, False, min(last, last_tick), last - best, seen=seen)
         case PropertyKind.LEVEL:
             raise AssertionError("levels are no tokens")
@@ -197,17 +197,19 @@ def _fate(
             spans = []
             for token in held:
                 if first <= token.start <= last and _margin(pattern, token) >= 0.0:
-                    after = min((begin for begin in begins if begin >= token.start), default=math.inf)
+                    soonest = token.start + (one.then.timeline == pattern.timeline)  # nothing follows itself
+                    after = min((begin for begin in begins if begin >= soonest), default=math.inf)
                     is_open = after == math.inf and token.start + one.ticks > last_tick
                     spans.append((token, math.inf if is_open else one.ticks - (after - token.start)))
         case PropertyKind.UNTIL:
             assert one.then is not None
             begins = [token.start for token in then if token.start >= first and _margin(one.then, token) >= 0.0]
             stop = min(begins, default=math.inf)
-            if stop > last and is_due:
-                return PropertyFate(one.name, False, min(last, last_tick), last - stop)
             told = _told_of(pattern, held)
             spans = [(token, _best(pattern, token)) for token in told if token.start < stop and token.end > first]
+            is_broken = any(margin < 0.0 and token.start <= last for token, margin in spans)
+            if stop > last and is_due and not is_broken:
+                return PropertyFate(one.name, False, min(last, last_tick), last - stop)
     worst = next((token for token, margin in spans if margin < 0.0), None)
     least = min((margin for _, margin in spans), default=math.inf)
     is_void = one.kind is PropertyKind.WITHIN and least == math.inf
@@ -217,12 +219,13 @@ def _fate(
     return PropertyFate(one.name, False, max(worst.start, first), least, is_void, seen=seen)
 
 
-def _seen_instead(pattern: TokenPattern, held: list[_Held], first: int) -> str:
+def _seen_instead(pattern: TokenPattern, held: list[_Held], first: int, last_tick: int) -> str:
     """What came in place of what was to be reached: nothing of the kind, too late, or with other arguments."""
     what = f"`{pattern.predicate}`" if pattern.predicate else "what matches"
     alike = [token for token in held if token.start >= first and token.predicate == pattern.predicate]
     if found := next((token for token in held if token.start >= first and _margin(pattern, token) >= 0.0), None):
-        over = "" if found.end == math.inf else f" and lasted until {found.end:g}"
+        lasts = "lasted" if found.end <= last_tick else "was to last"  # the mission was over before
+        over = "" if found.end == math.inf else f" and {lasts} until {found.end:g}"
         return f"{what} began at {found.start}{over}"
     if not alike or pattern.where:
         return f"{what} never came on `{pattern.timeline}`" if not alike else ""

@@ -104,7 +104,9 @@ LATE_UP = TokenPattern("dive", "Up", (), "start > 60")
         ("always", UP, {"since": 30, "by": 49}, True, None, float("inf")),
         ("within", down(), {"then": ON, "ticks": 40}, True, None, 0.0),
         ("within", down(), {"then": ON, "ticks": 39}, False, 50, -1.0),
-        ("within", UP, {"then": UP, "ticks": 0}, True, None, 0.0),
+        ("within", UP, {"then": UP, "ticks": 50}, True, None, 0.0),  # by the next one, not by itself
+        ("within", UP, {"then": UP, "ticks": 49}, False, 30, -1.0),
+        ("within", UP, {"then": TokenPattern("dive"), "ticks": 0}, False, 0, float("-inf")),
         ("within", down(), {"then": ON, "ticks": 0}, False, 10, -40.0),
         (
             "within",
@@ -125,7 +127,23 @@ LATE_UP = TokenPattern("dive", "Up", (), "start > 60")
         ("until", UP, {"then": down()}, True, None, float("inf")),
         ("until", TokenPattern("dive", "", (), "duration <= 20"), {"then": ON}, True, None, 0.0),
         ("until", TokenPattern("dive", "", (), "duration <= 19"), {"then": ON}, False, 10, -1.0),
-        ("until", UP, {"then": TokenPattern("radio", "Off")}, False, 100, float("-inf")),
+        ("until", UP, {"then": TokenPattern("radio", "Off")}, False, 10, float("-inf")),
+        (
+            "until",
+            TokenPattern("dive", "", (), "duration <= 99"),
+            {"then": TokenPattern("radio", "Off")},
+            False,
+            100,
+            float("-inf"),
+        ),
+        (
+            "until",
+            TokenPattern("dive", "", (), "duration <= 19"),
+            {"then": TokenPattern("radio", "Off")},
+            False,
+            10,
+            -11.0,
+        ),
     ],
 )
 def test_a_property_has_its_fate(
