@@ -217,6 +217,7 @@ second: build
 	$(BIN)/python -m tests.executive.second.campaign $(AGENTS) --turns
 	$(BIN)/python -m tests.executive.second.campaign $(AGENTS) --windows
 	$(BIN)/python -m tests.executive.second.campaign $(AGENTS) --priorities
+	$(BIN)/python -m tests.executive.second.campaign $(AGENTS) --stores
 	NDDLC_CASES=all $(PYTEST) tests/executive/test_second.py
 
 renames: build

@@ -10,6 +10,7 @@ from runtime.executive.view import SPAN_CLOCK
 from runtime.executive.workbench import Workbench
 from runtime.limits import TIME_LIMIT, LimitError
 from runtime.plan.tags import (
+    FLAG_NATIVE,
     FLAG_REJECTABLE,
     HEAD_OPEN,
     INACTIVE,
@@ -81,6 +82,8 @@ class _Window(PlanningScope):
             if self.tick == self.final and bench.lower(start) == self.tick and self._waits_for_others(t):
                 return False  # what can begin at the end at the earliest is not begun
             return bench.upper(start) <= self.tick < bench.upper(bench.end(t))
+        if bench.rows.flags[t] & FLAG_NATIVE and bench.rows.status[t] == INACTIVE:
+            return True  # a use that a repair has taken back counts whenever it is
         earliest = bench.lower(start)
         is_to_begin = self.is_reactive and bench.upper(start) > self.tick
         if is_to_begin and bench.is_internal(t) and (not bench.is_due_to_request(t) or self._waits_behind(t)):
@@ -216,10 +219,7 @@ class _Window(PlanningScope):
 
     def is_any_bound(self) -> bool:
         """Whether a constraint has come to wait for an argument that was left to the world; forgets them."""
-        found = False
-        for v in self.left_open:
-            if not self._is_free(v):
-                found = True
+        found = len([v for v in self.left_open if not self._is_free(v)]) > 0
         self.left_open = []
         return found
 

@@ -32,6 +32,7 @@ def relax(
         for token in met:  # what runs and asked for these finds what was observed anew
             if not bench.is_freed(token):
                 bench.cancel(token)
+    bench.forget_orders()
     for token in bench.all_tokens():
         if not bench.is_freed(token) and bench.is_waiting(token, tick):
             bench.cancel(token)

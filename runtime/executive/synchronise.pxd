@@ -22,7 +22,7 @@ cdef class _Search:
     cdef public Planner planner
     cdef public Dispatch asked
     cdef public list timelines, lines, made
-    cdef public object first
+    cdef public object first, relief
     cdef public dict tried
     cdef public long long tick, first_depth
     cdef public bint explains, is_last, is_out_of_budget
@@ -51,8 +51,6 @@ cdef class _Search:
     @cython.locals(bench=Workbench, fits=bint, mark="long long", predicate="long long", token="long long")
     cpdef long long fitting(self, TimelineState line, news) except? -1
 
-    cpdef long long _undefined(self, TimelineState line) except? -1
-
     @cython.locals(
         bench=Workbench, holds=bint, kind="long long", predicate="long long", tick="long long", token="long long"
     )
@@ -65,6 +63,8 @@ cdef class _Search:
 
     @cython.locals(bench=Workbench, outcome="long long", tick="long long", token="long long")
     cpdef bint _finish(self) except -1
+
+    cpdef int _postpone(self) except -1
 
     @cython.locals(
         bench=Workbench, found=dict, k="long long", line=TimelineState, other=TimelineState, token="long long"

@@ -56,7 +56,8 @@ def synchronise(
     # Choices fail all the time; only when all have failed is it worth while to find out why.
     bench.rewind_to(mark)
     search = _Search(bench, planner, timelines, tick, final_tick, asked, True)
-    return search.explained(search.run())
+    failed, bench.plan.resources.relief = search.explained(search.run()), None
+    return failed
 
 
 class _Search:
@@ -76,9 +77,9 @@ class _Search:
         self.bench = bench
         self.planner = planner
         self.tick = tick
-        self.is_last = tick == final_tick
-        self.asked = asked
+        self.is_last, self.asked = tick == final_tick, asked
         self.timelines = timelines
+        self.relief = planner.solver.relief  # within what holds now
         self.lines = [line for line in timelines if not line.is_internal and line.news is not None]
         self.lines += sorted([line for line in timelines if line.is_internal], key=self._rank)
         self.made: list[int] = []
@@ -152,7 +153,8 @@ class _Search:
                 bench.rewind_to(marks[depth])
                 if self._misfit(self.lines[depth], choice):
                     tries -= 1
-                    open_choices[depth] = self._observing(self.lines[depth], self._undefined(self.lines[depth]))
+                    line = self.lines[depth]
+                    open_choices[depth] = self._observing(line, line.predicates.get(_UNDEFINED, NOTHING))
                 elif not self.explains:
                     self._note_failure(self.lines[depth], choice)
 
@@ -253,16 +255,13 @@ class _Search:
                 return predicate
         elif predicate != NOTHING:
             return predicate
-        return self._undefined(line)
-
-    def _undefined(self, line: TimelineState) -> int:
-        """The predicate that stands for what the model of a timeline does not know."""
         return line.predicates.get(_UNDEFINED, NOTHING)
 
     def apply(self, line: TimelineState, choice: _Choice) -> bool:
         """Carry out `choice`; False on conflict."""
         bench, tick = self.bench, self.tick
         kind, token, predicate = choice
+        self._postpone()
         if line.is_internal and line.current != NOTHING and kind != _EXTEND:
             # Something holds at every tick: what held until now ends as the next thing begins.
             if not bench.fix(bench.end(line.current), tick, SPAN_EXECUTIVE, line.current):
@@ -311,6 +310,7 @@ class _Search:
     def _finish(self) -> bool:
         """Let what has not started start later, and resolve the flaws of the present."""
         bench, tick = self.bench, self.tick
+        self._postpone()
         for token in self.waiting():
             if self.is_last:
                 break  # there is no later
@@ -333,6 +333,14 @@ class _Search:
                 self.first = SyncFailure("F3", (), what, conflict, deadlock)
             return False
         return True
+
+    def _postpone(self) -> None:
+        """Leave a level to the end that what is open now may relieve, as planning does: no order of lines decides."""
+        if self.relief is not None:
+            window = self.planner.window
+            window.tick, window.end, window.is_present = self.tick, self.tick, True
+            self.relief.count_guards()
+            self.bench.plan.resources.relief = self.relief
 
     def waiting(self) -> list[int]:
         """Tokens that have not begun: all behind the current one of a timeline, and others that still may wait."""

@@ -26,7 +26,7 @@ from runtime.plan.tags import (
     NONE,
 )
 from runtime.plan.tokens.archive import Leaving, archive, detach
-from runtime.plan.tokens.retraction import cancel, remove_tokens, wake_guards
+from runtime.plan.tokens.retraction import cancel, forget_orders, remove_tokens, wake_guards
 from runtime.plan.tokens.timelines import order
 from runtime.plan.tokens.tokens import make_token
 
@@ -227,6 +227,10 @@ class Workbench(PlanView):
     def cancel(self, t: int) -> bool:
         """Take a token out of the plan, with all that followed from it; it stays to be decided again."""
         return cancel(self.plan, t) and fire(self.plan) and self._undecide(t)
+
+    def forget_orders(self) -> bool:
+        """Take back the order in which the planner has put uses of resources."""
+        return forget_orders(self.plan) and fire(self.plan)
 
     def _undecide(self, t: int) -> bool:
         """Undo what the planner decided about the variables of a token."""

@@ -2,12 +2,39 @@
 
 from pathlib import Path
 
+import pytest
+
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.pinned import pinned
+from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.outcome import EventKind, RepairStage
+from runtime.solver.configuration.configuration import FlawManager, default_configuration
+from tests.executive.flying import flown, fly, lines, planner, simulator
 
 HERE = Path(__file__).parent / "levels"
+ARM = 'class Arm extends AgentTimeline { predicate Rest { } predicate Act { } Arm(Mode m) { super(m, "Rest"); } } '
+USER = """
+class Task extends AgentTimeline { predicate Idle { } predicate Do { } Task(Mode m) { super(m, "Idle"); } }
+class Side extends AgentTimeline { predicate Calm { } predicate Run { } Side(Mode m) { super(m, "Calm"); } }
+class More extends AgentTimeline { predicate Still { } predicate Go { } More(Mode m) { super(m, "Still"); } }
+Task::Do {
+    equals(Arm.Act a);
+    any(store.consume use);
+    use.time == start;
+    use.quantity == 5.0;
+    any(store.produce gain);
+    gain.time == end;
+    gain.quantity == 5.0;
+}
+Side::Run { duration >= 4; duration <= 20; any(store.consume use); use.time == end; use.quantity == 5.0; }
+More::Go { duration == 5; any(store.consume use); use.time == start; use.quantity == 5.0; }
+Task task = new Task(Internal);
+Side side = new Side(Internal);
+More more = new More(Internal);
+Arm arm = new Arm(External);
+close();
+"""
 
 
 def test_a_repair_that_forgets_the_past_keeps_what_was_consumed() -> None:
@@ -22,3 +49,63 @@ def test_a_repair_that_forgets_the_past_keeps_what_was_consumed() -> None:
     repairs = [event.stage for event in outcome.events if event.kind is EventKind.RELAX and event.reactor == "pilot"]
     assert RepairStage.FORGET_PAST in repairs
     assert outcome.abort is not None and (outcome.abort.code, outcome.abort.tick) == ("F4", 817)
+
+
+def flying_with_a_store(length: int, store: str, *goals: GoalConfiguration) -> list[str]:
+    """What a planner of three timelines with one store tells, whose task lasts as long as a simulator lets it."""
+    usual = default_configuration()
+    ordering = usual.__class__(usual.name, usual.filters, (*usual.managers, FlawManager("ResourceThreatManager")))
+    owner = simulator("sim", f"{ARM} Arm::Act {{ duration == {length}; }} Arm arm = new Arm(Internal); close();", "arm")
+    user = planner("user", f"Reservoir store = new Reservoir({store}); {ARM} {USER}", "task side more", "arm")
+    mission = flown(owner, user, until=60, goals=goals, solver=ordering)
+    assert mission.report.holds
+    return lines(mission.outcome, "relax", "reject", "observation")
+
+
+def goal(timeline: str, predicate: str, start: int, recall: int | None = None) -> GoalConfiguration:
+    """A goal that begins at one tick."""
+    return GoalConfiguration(timeline, predicate, start=(start, start), recall=recall)
+
+
+def test_a_repair_leaves_charged_what_a_running_token_will_give_back() -> None:
+    """The second task cannot begin at 9; what the first gives back at its end is enough for the run, as before."""
+    goals = (goal("task", "Do", 5), goal("task", "Do", 9), goal("side", "Run", 11))
+    told = flying_with_a_store(8, "5.0, 0.0, 5.0", *goals)
+    assert "11 observation user side Run" in told
+    assert not any(line.startswith("9 reject user side") for line in told)
+
+
+def test_a_repair_takes_back_the_order_in_which_uses_were_put() -> None:
+    """Room for a goal asked that the task end before the run does; the goal was taken back, and the task goes on."""
+    goals = (goal("task", "Do", 5), goal("side", "Run", 6), goal("more", "Go", 20, recall=10))
+    told = flying_with_a_store(40, "10.0, 0.0, 10.0", *goals)
+    assert [line.split(":")[0] for line in told if "relax" in line] == ["26 relax user keeping the past"]
+    assert told[-3:] == [
+        "26 observation user side Calm",
+        "45 observation sim arm Rest",
+        "45 observation user task Idle",
+    ]
+
+
+@pytest.mark.parametrize("body", ["GAIN starts(Side.Run r);", "starts(Side.Run r); GAIN"])
+def test_what_must_begin_now_is_not_ruled_out_by_a_level_that_its_children_relieve(body: str) -> None:
+    gain = "any(store.produce gain); gain.time == start; gain.quantity == 2.0;"
+    source = 'class Src extends AgentTimeline { predicate A { } predicate B { } Src(Mode m) { super(m, "A"); } }'
+    user = f"""
+Reservoir store = new Reservoir(2.0, 0.0, 3.0);
+class Task extends AgentTimeline {{ predicate Idle {{ }} predicate Halt {{ }} Task(Mode m) {{ super(m, "Idle"); }} }}
+class Side extends AgentTimeline {{ predicate Calm {{ }} predicate Run {{ }} Side(Mode m) {{ super(m, "Calm"); }} }}
+Src::B {{ equals(Task.Halt h); }}
+Task::Halt {{ {body.replace("GAIN", gain)} }}
+Side::Run {{ any(store.consume use); use.time == start; use.quantity == 2.0; }}
+Task task = new Task(Internal);
+Side side = new Side(Internal);
+Src src = new Src(Observe);
+close();
+"""
+    world = f"{source} Src::A {{ duration == 5; meets(object.B next); }} Src src = new Src(Internal); close();"
+    outcome = fly(simulator("sim", world, "src"), planner("plan", source + user, "task side", "src"))
+    assert lines(outcome, "relax", "observation")[-2:] == [
+        "5 observation plan task Halt",
+        "5 observation plan side Run",
+    ]

@@ -1,14 +1,20 @@
 """Missions fly as a second agent flies them, written from the specification, which shares nothing with the first."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
 
 from tests.executive.second.comparing import differences
 from tests.executive.second.description import Description
-from tests.executive.second.generator import following_mission, prioritised_mission, random_mission, windowed_mission
+from tests.executive.second.generator import (
+    following_mission,
+    prioritised_mission,
+    random_mission,
+    storing_mission,
+    windowed_mission,
+)
 from tests.executive.second.reading import OutsideTheFamilyError, described
 
 CASES = sorted(path.parent for path in Path(__file__).parent.glob("cases/*/mission.toml"))
@@ -43,6 +49,11 @@ def test_who_is_decided_first_by_the_table_is_so_in_the_second_agent(first: int)
     assert _without_choice(prioritised_mission, range(first, first + 20)) >= 5
 
 
+# A repair that lost what was given back, and one whose level a goal that was open again was to relieve.
+def test_levels_bind_as_the_second_agent_has_them() -> None:
+    assert _without_choice(storing_mission, (200, 1297, 1392)) == 3
+
+
 # What a command needs cannot be: it is given up, by register code when it is asked, too.
 @pytest.mark.parametrize("seed", [0, 24067])
 def test_what_once_differed_in_a_window_no_longer_does(seed: int) -> None:
@@ -55,7 +66,7 @@ def test_what_once_differed_behind_what_runs_no_longer_does(seed: int) -> None:
     assert differences(following_mission(seed))[0] == []
 
 
-def _without_choice(make: Callable[[int], Description], seeds: range) -> int:
+def _without_choice(make: Callable[[int], Description], seeds: Sequence[int]) -> int:
     """In how many missions the text leaves a planner no choice; in these nothing differs."""
     sure = 0
     for seed in seeds:

@@ -115,6 +115,20 @@ def withdraw_refusals(plan: Plan) -> None:
         plan.engine.retract(refusals, [], [], [])
 
 
+def forget_orders(plan: Plan) -> bool:
+    """Take back the precedences between uses of resources that a search has posted, and no rule (level 0)."""
+    engine, uses = plan.engine, plan.resources
+    edges: list[int] = []
+    for u in range(uses.count):
+        for v in (uses.start[u], uses.end[u]) if uses.sign[u] else ():
+            e = engine.out_head[v] if v >= 0 else NONE
+            while e >= 0:
+                if engine.edge_owner[e] == NONE and engine.edge_span[e] == NONE and e not in edges:
+                    edges.append(e)
+                e = engine.out_next[e]
+    return not edges or engine.retract([], edges)
+
+
 def _scopes_of(plan: Plan, t: int) -> list[int]:
     """The scopes of a token, the latest first."""
     rows = plan.rows

@@ -8,7 +8,17 @@ from runtime.constraints.propagators.opcodes import OP_EXTERNAL
 from runtime.plan.database import PlanDatabase
 from runtime.plan.resources.violation import Violation
 from runtime.plan.store.plan import Plan
-from runtime.plan.tags import HEAD_OPEN, LIST_OPEN, LISTS, RESOURCE_CONSUMES, RESOURCE_PRODUCES, TOO_HIGH, TOO_LOW
+from runtime.plan.tags import (
+    BRANCH_WAITING,
+    HEAD_OPEN,
+    LIST_OPEN,
+    LISTS,
+    RESOURCE_CONSUMES,
+    RESOURCE_PRODUCES,
+    TOO_HIGH,
+    TOO_LOW,
+)
+from runtime.solver.flaws.filters import PlanningScope
 from runtime.solver.flaws.supports import Supports
 
 
@@ -28,15 +38,21 @@ class Relief:
         self.is_guarded: dict[int, bool] = {}
         for sign, kind in ((1, RESOURCE_PRODUCES), (-1, RESOURCE_CONSUMES)):
             helpers = [p for p in kinds if plan.predicate_resource[p] == kind]
-            # What a token is itself was charged when it was made.
-            self.brings[sign] = [any(p != h and supports.leads_to(p, h) for h in helpers) for p in kinds]
+            # Itself, too: a use that a repair has taken back is open.
+            self.brings[sign] = [any(supports.leads_to(p, h) for h in helpers) for p in kinds]
             self.is_guarded[sign] = any(supports.is_guarded(h) for h in helpers)
         self.waiting = 0
+        self.within: PlanningScope | None = None  # what is decided now, where the rest cannot help
 
     @property
     def is_possible(self) -> bool:
         """Whether any token or guard of the model could ever bring relief."""
         return any(any(row) for row in self.brings.values()) or any(self.is_guarded.values())
+
+    def count_guards(self) -> None:
+        """Count the guards that have not fired, where no search counts them."""
+        rows, scopes = self.plan.rows, range(self.plan.rows.scope_count if any(self.is_guarded.values()) else 0)
+        self.waiting = sum(rows.scope_watch[s] >= 0 and rows.scope_branch[s] == BRANCH_WAITING for s in scopes)
 
     def may_come(self, o: int, sign: int) -> bool:
         """Whether something open may give to resource `o` (sign 1), or take from it (-1)."""
@@ -49,7 +65,7 @@ class Relief:
         brings = self.brings[sign]
         t = rows.head_first[HEAD_OPEN]
         while t >= 0:
-            if brings[rows.predicate[t]]:
+            if brings[rows.predicate[t]] and (self.within is None or self.within.admits_token(t)):
                 return True
             t = rows.link_after[LISTS * t + LIST_OPEN]
         uses = plan.resources

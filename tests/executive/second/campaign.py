@@ -13,6 +13,7 @@ from tests.executive.second.generator import (
     following_mission,
     prioritised_mission,
     random_mission,
+    storing_mission,
     windowed_mission,
 )
 from tests.executive.second.searching import TooHardError
@@ -28,9 +29,10 @@ def main() -> int:
     parser.add_argument("--turns", action="store_true", help="of a user whose model says what follows")
     parser.add_argument("--priorities", action="store_true", help="of a planner that decides some goals first")
     parser.add_argument("--windows", action="store_true", help="of a simulator that lets things begin at times only")
+    parser.add_argument("--stores", action="store_true", help="of planners and owners that use stores")
     given = parser.parse_args()
     makes = {"bounds": bounded_mission, "turns": following_mission}
-    makes |= {"windows": windowed_mission, "priorities": prioritised_mission}
+    makes |= {"windows": windowed_mission, "priorities": prioritised_mission, "stores": storing_mission}
     make = next((made for name, made in makes.items() if getattr(given, name)), random_mission)
     tally: Counter[str] = Counter()
     for seed in range(given.first, given.first + given.count):

@@ -76,7 +76,16 @@ class Guarded:
     body: tuple["Item", ...]
 
 
-Item = Bound | Drawn | Child | Between | Apart | Guarded
+@dataclass(frozen=True, slots=True)
+class Use:
+    """The level of a store changes by an amount at the start or the end of the rule's token, or as long as it lasts."""
+
+    store: str
+    amount: int
+    when: Literal["start", "end", "all"]
+
+
+Item = Bound | Drawn | Child | Between | Apart | Guarded | Use
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +124,17 @@ class First:
 
 
 @dataclass(frozen=True, slots=True)
+class Store:
+    """A resource of one reactor's model: a `Reservoir`, or a `Reusable`, whose first level is its capacity."""
+
+    name: str
+    kind: Literal["Reservoir", "Reusable"]
+    first: int
+    least: int
+    most: int
+
+
+@dataclass(frozen=True, slots=True)
 class Part:
     """A reactor."""
 
@@ -130,6 +150,8 @@ class Part:
     ranges: tuple[tuple[str, str, str, int, int], ...] = ()  # of parameters: timeline, predicate, name, bounds
     early: tuple[str, ...] = ()
     late: tuple[str, ...] = ()
+    stores: tuple[Store, ...] = ()
+    orders: bool = False  # its solver's table has uses of stores ordered
     first: tuple[str, ...] = ()  # predicates of goals that its solver's table has decided in this order
 
 

@@ -18,7 +18,9 @@ from tests.executive.second.description import (
     Part,
     Relation,
     Rule,
+    Store,
     Tie,
+    Use,
     Wish,
 )
 
@@ -80,6 +82,59 @@ def following_mission(seed: int) -> Description:
         parts.append(part)
     kinds = (*found.kinds, kind)
     return replace(found, name=f"following_{seed}", kinds=kinds, parts=(own, *parts))
+
+
+def storing_mission(seed: int) -> Description:
+    """The mission of a seed, in which a planner, what it looks at, or an owner uses a store of its own model."""
+    found, dice = random_mission(seed), default_rng((seed, 5))
+    capacity, first = int(dice.choice((3, 4, 6))), 0
+    is_reusable = bool(dice.integers(10) < 4)
+    first = capacity if is_reusable else int(dice.choice((capacity, capacity, capacity - 1, 2)))
+    store = Store("store", "Reusable" if is_reusable else "Reservoir", first, 0, capacity)
+    side = Kind("side", (("Calm", ()), ("Run", ())))
+    length = int(dice.choice((2, 4, 7)))
+    parts = []
+    for part in found.parts:
+        if part.name == "plan0":
+            own = Rule("side", "Run", (Bound("duration", length, length + int(dice.choice((0, 0, 3)))),))
+            rules = [_using(rule, store, dice) for rule in (*part.rules, own)]
+            if not is_reusable:
+                rules.append(
+                    Rule("task0", "Halt", (Bound("duration", 3, 3), Use("store", int(dice.integers(1, 4)), "end")))
+                )
+            orders = bool(dice.integers(4))
+            part = replace(part, internal=(*part.internal, "side"), rules=tuple(rules), stores=(store,), orders=orders)
+        elif part.name in ("owner0", "sim0") and dice.integers(3) == 0:
+            part = replace(part, rules=tuple(_using(rule, store, dice) for rule in part.rules), stores=(store,))
+        parts.append(part)
+    wishes = []
+    for wish in found.wishes:
+        kind = int(dice.integers(6))
+        if wish.timeline == "task0" and kind == 0:
+            wish = replace(wish, predicate="Halt", arguments=())
+        wishes.append(wish)
+        if kind > 2:
+            late = int(dice.integers(12))
+            start = (wish.start[0] + late, wish.start[1] + late)
+            wishes.append(replace(wish, timeline="side", predicate="Run", start=start, recall=None, arguments=()))
+    kinds = (*found.kinds, side)
+    return replace(found, name=f"storing_{seed}", kinds=kinds, parts=tuple(parts), wishes=tuple(wishes))
+
+
+def _using(rule: Rule, store: Store, dice: Generator) -> Rule:
+    """A rule whose token uses a store, mostly if it is asked for."""
+    if rule.predicate not in ("Do", "Run", "Act", "B") or dice.integers(5) >= (2 if rule.predicate == "B" else 4):
+        return rule
+    amount = int(dice.integers(1 + store.most // 3, store.most + 1))
+    if store.kind == "Reusable":
+        return replace(rule, body=(*rule.body, Use("store", -amount, "all")))
+    when = int(dice.integers(5))
+    uses = [Use("store", -amount, "start" if when < 4 else "end")]
+    if when < 2:
+        uses.append(Use("store", amount, "end"))
+    elif when == 3 and rule.predicate == "B":
+        uses = [Use("store", amount, "start")]
+    return replace(rule, body=(*rule.body, *uses))
 
 
 def prioritised_mission(seed: int) -> Description:

@@ -16,6 +16,7 @@ from tests.executive.second.description import (
     Item,
     Part,
     Relation,
+    Use,
 )
 from tests.executive.second.network import NOBODY, ORDER, ContradictionError, Network
 
@@ -82,6 +83,8 @@ class Plan:
     children: dict[tuple[int, str], int] = field(default_factory=dict)
     choices: int = 0  # that were open to the planner: more than one place
     decisions: int = 0
+    uses: list[tuple[int, Use]] = field(default_factory=list)  # of stores, by tokens
+    spent: tuple[tuple[str, int, int], ...] = ()  # of stores by what is forgotten: how much, when
     bare: frozenset[int] = frozenset()  # what is over and forgotten, but for that it has happened
 
     def copy(self) -> "Plan":
@@ -89,7 +92,8 @@ class Plan:
         return Plan(
             self.description, self.part, self.draw, self.now, self.net.copy(), self.tokens[:], self.state[:],
             self.into[:], self.goals_of[:], {key: value[:] for key, value in self.sequence.items()},
-            dict(self.current), self.waiting[:], dict(self.children), self.choices, self.decisions, self.bare,
+            dict(self.current), self.waiting[:], dict(self.children), self.choices, self.decisions, self.uses[:],
+            self.spent, self.bare,
         )  # fmt: skip
 
     def new(
@@ -197,6 +201,7 @@ class Plan:
             plan.state[one], plan.into[one] = "open", one
         plan.tokens = [replace(one, parent=None) if one.parent in gone else one for one in plan.tokens]
         plan.waiting = [one for one in plan.waiting if one[0] not in gone]
+        plan.uses = [one for one in plan.uses if one[0] not in gone]
         for timeline, line in plan.sequence.items():
             plan.sequence[timeline] = [one for one in line if one not in gone]
             plan._order(plan.sequence[timeline])
@@ -239,6 +244,8 @@ class Plan:
                 self.last(number, low, high)
             case Bound(term, low, high):
                 net.within(self.term(number, term), low, high)
+            case Use():
+                self.uses.append((number, item))
             case Drawn() | Guarded():
                 self.waiting.append((number, item))
             case Child(relation, timeline, predicate, label, ties):

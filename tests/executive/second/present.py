@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from tests.executive.second.description import FAR
+from tests.executive.second.levels import is_possible
 from tests.executive.second.network import NOBODY, ContradictionError
 from tests.executive.second.plan import Goal, Plan
 
@@ -50,6 +51,7 @@ def repaired(plan: Plan, forgets: bool, asked: Sequence[Goal]) -> tuple[Plan, di
     It is fact; what goals ask of its end and length is not, and is left out but for those in `asked`.
     """
     new = Plan(plan.description, plan.part, plan.draw, plan.now, choices=plan.choices)
+    new.spent = plan.spent
     moved: dict[int, int] = {}
     begun = [one for one, state in enumerate(plan.state) if state == "begun"]
     current = plan.current.values()
@@ -71,6 +73,12 @@ def repaired(plan: Plan, forgets: bool, asked: Sequence[Goal]) -> tuple[Plan, di
         for goal in plan.goals_of[old] if goal_binds(plan, old) else ():
             if goal in asked:
                 bound(new, here, goal)
+    if forgets:
+        for one, use in plan.uses:
+            if plan.state[one] == "begun" and one not in current and use.when != "all":
+                new.spent += (
+                    (use.store, use.amount, plan.window(one)[0] if use.when == "start" else plan.ends(one)[0]),
+                )
     for (parent, label), child in plan.children.items():
         found = plan.stands_for(child)
         if forgets and plan.tokens[child].timeline not in plan.part.internal:
@@ -155,7 +163,8 @@ def observed(plan: Plan, news: News, now: Now) -> Iterator[Plan]:
             met.begin(one, now.tick)
         except ContradictionError:
             continue
-        yield met
+        if is_possible(met, waits=True):
+            yield met
     if answered:
         return
     plan = plan.copy()
@@ -167,6 +176,8 @@ def observed(plan: Plan, news: News, now: Now) -> Iterator[Plan]:
         plan.net.within(plan.tokens[here].start, now.tick, now.tick)
         plan.insert(here, sum(plan.state[one] == "begun" for one in line))
         plan.begin(here, now.tick)
+        if not is_possible(plan, waits=True):
+            raise ContradictionError
     except ContradictionError:
         raise PresentError("F8" if news.predicate == "Failed" else "F2", news.timeline) from None
     yield plan
@@ -193,7 +204,8 @@ def _each(plan: Plan, now: Now, timelines: tuple[str, ...]) -> Iterator[Plan]:
         yield from _flawless(plan, now)
         return
     for choice in _choices(plan, now, timelines[0]):
-        yield from _each(choice, now, timelines[1:])
+        if is_possible(choice, waits=True):
+            yield from _each(choice, now, timelines[1:])
 
 
 def _flawless(plan: Plan, now: Now) -> Iterator[Plan]:
@@ -205,7 +217,8 @@ def _flawless(plan: Plan, now: Now) -> Iterator[Plan]:
             for target in plan.resolved(one, makes=False):
                 yield from _flawless(target, now)
             return
-    yield plan
+    if is_possible(plan):
+        yield plan
 
 
 def _choices(plan: Plan, now: Now, timeline: str) -> Iterator[Plan]:

@@ -195,7 +195,7 @@ class Reactor:
 
     def _committed(self, plan: Plan, tick: int, news: dict[str, News]) -> list[News]:
         self.plan = plan
-        found = []
+        found, is_over = [], False
         for timeline in self.part.internal:
             here = plan.current[timeline]
             if plan.window(here)[0] != tick:
@@ -206,7 +206,7 @@ class Reactor:
                     length = tick - plan.window(old)[0]
                     is_timely = goal.end[0] <= tick <= goal.end[1] and goal.duration[0] <= length <= goal.duration[1]
                     is_cut = self._is_cut_off(goal, news) or not (goal.is_late or is_timely)
-                    goal.state = "cut" if is_cut else "over"
+                    goal.state, is_over = "cut" if is_cut else "over", True
                     if is_cut or not goal.is_late:
                         what = (goal.timeline, goal.predicate, goal.arguments, goal.number)
                         self.tell("reject" if is_cut else "achieved", self.part.name, *what)
@@ -221,7 +221,15 @@ class Reactor:
                 self._reject(goal)
             elif goal.state == "open":
                 goal.is_told = False  # that it comes back and is rejected again is told anew
+        if is_over:
+            self._reopen()
         return found
+
+    def _reopen(self) -> None:
+        """What was rejected may have room now that something else has left the plan."""
+        for goal in self.goals:
+            if goal.state == "rejected" and goal.start[1] > self.tick:
+                goal.state = "open"
 
     def _is_cut_off(self, goal: Goal, news: dict[str, News]) -> bool:
         """Whether an owner has given up what a goal needs, or has failed while it did it."""
@@ -274,9 +282,7 @@ class Reactor:
             self.plan = self.plan.removed(gone)
             for request in self.requests:
                 request.token = None if request.token in gone else request.token
-            for other in self.goals:
-                if other.state == "rejected" and other.start[1] > self.tick:
-                    other.state = "open"
+            self._reopen()
         goal.state = "gone"
 
     def _present_again(self, plan: Plan) -> Plan:

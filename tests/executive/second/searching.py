@@ -2,8 +2,10 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 from tests.executive.second.description import Part
+from tests.executive.second.levels import within_levels
 from tests.executive.second.network import ContradictionError
 from tests.executive.second.plan import Goal, Plan
 from tests.executive.second.present import bound
@@ -54,7 +56,11 @@ class Search:
         else:
             one = self._next_open(plan)
             if one is None:
-                return plan, {}
+                kept = list(islice(within_levels(plan), 2 if counts else 1))
+                if not kept:
+                    return None
+                kept[0].choices += len(kept) > 1
+                return kept[0], {}
             options, states = plan.resolved(one), {}
         first: Found | None = None
         for option in options:

@@ -14,7 +14,9 @@ from tests.executive.second.description import (
     Item,
     Kind,
     Part,
+    Store,
     Tie,
+    Use,
 )
 
 
@@ -22,7 +24,7 @@ def written(description: Description, folder: Path) -> Path:
     """Write it; the mission file."""
     for part in description.parts:
         (folder / f"{part.name}.nddl").write_text(model(description, part))
-        if part.first:
+        if part.first or part.orders:
             (folder / f"{part.name}.toml").write_text(table(description, part))
     file = folder / "mission.toml"
     file.write_text(mission(description))
@@ -36,8 +38,12 @@ def model(description: Description, part: Part) -> str:
     for parameter in description.parameters:
         text.append(f"int {parameter.name} = [{min(parameter.values)} {max(parameter.values)}];")
     text += [_class(kind, part) for kind in description.kinds if kind.timeline in used]
+    text += [_store(store) for store in part.stores]
     for rule in part.rules:
-        body = "\n".join(line for item in rule.body for line in _item(item, "  "))
+        items = [
+            _use(item, place) if isinstance(item, Use) else _item(item, "  ") for place, item in enumerate(rule.body)
+        ]
+        body = "\n".join(line for item in items for line in item)
         text.append(f"{description.kind(rule.timeline).name}::{rule.predicate} {{\n{body}\n}}")
     for mode, timelines in (("Internal", part.internal), ("External", part.external), ("Observe", part.observed)):
         for timeline in timelines:
@@ -51,7 +57,13 @@ def model(description: Description, part: Part) -> str:
 
 
 def table(description: Description, part: Part) -> str:
-    """The solver's table of a reactor whose goals have priorities: tokens are ordered first, what else is open last."""
+    """The solver's table of a reactor whose goals have priorities: tokens are ordered first, what else is open last.
+
+    Where it has uses of stores ordered, that comes behind all else.
+    """
+    if part.orders:
+        kinds = ("ThreatManager", "OpenConditionManager", "UnboundVariableManager", "ResourceThreatManager")
+        return "".join(f'[[manager]]\ncomponent = "{kind}"\n' for kind in kinds)
     lines = ["[[manager]]", 'component = "ThreatManager"', "default_priority = 0"]
     lines += ["[[manager]]", 'component = "OpenConditionManager"', "default_priority = 50"]
     for place, predicate in enumerate(part.first, 1):
@@ -75,6 +87,20 @@ def _class(kind: Kind, part: Part) -> str:
         lines.append(f"  predicate {predicate} {{{inside} }}")
     default = kind.predicates[0][0]
     return "\n".join([*lines, f'  {kind.name}(Mode m) {{ super(m, "{default}"); }}', "}"])
+
+
+def _store(store: Store) -> str:
+    limits = (store.first, store.least, store.most) if store.kind == "Reservoir" else (store.first, store.least)
+    return f"{store.kind} {store.name} = new {store.kind}({', '.join(f'{one}.0' for one in limits)});"
+
+
+def _use(use: Use, place: int) -> list[str]:
+    name = f"use{place}"
+    if use.when == "all":
+        return [f"  equals({use.store}.uses {name});", f"  {name}.quantity == {-use.amount}.0;"]
+    happens = "produce" if use.amount > 0 else "consume"
+    lines = [f"any({use.store}.{happens} {name});", f"{name}.time == {use.when};"]
+    return [f"  {line}" for line in (*lines, f"{name}.quantity == {abs(use.amount)}.0;")]
 
 
 def _item(item: Item, indent: str) -> list[str]:
@@ -136,7 +162,7 @@ def mission(description: Description) -> str:
         lines += [f"latency = {part.latency}", f"lookahead = {part.lookahead}", f"internal = {_texts(part.internal)}"]
         if part.external or part.observed:
             lines.append(f"external = {_texts((*part.external, *part.observed))}")
-        if part.first:
+        if part.first or part.orders:
             lines.append(f'solver = "{part.name}.toml"')
         for key in ("early", "late"):
             if names := getattr(part, key):
