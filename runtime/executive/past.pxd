@@ -38,7 +38,7 @@ cdef class Past:
     @cython.locals(bench=Workbench, holds=bint, mark="long long", t="long long")
     cpdef int put_back(self, one) except -1
 
-    @cython.locals(t="long long")
+    @cython.locals(holds=bint, plan=Plan, t="long long")
     cpdef bint put_back_uses(self, uses) except -1
 
     @cython.locals(bench=Workbench, holds=bint, is_active=bint, plan=Plan, t="long long", waiting="long long")

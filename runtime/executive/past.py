@@ -34,6 +34,14 @@ class OverToken(NamedTuple):
     arguments: Arguments
 
 
+class _OtherUses:
+    """Relief while uses are put back one by one: others may come."""
+
+    def may_come(self, o: int, sign: int) -> bool:
+        """Whether the level of a resource is judged later."""
+        return True
+
+
 class Past:
     """What one reactor keeps of what is over."""
 
@@ -124,14 +132,20 @@ class Past:
             self._forget_oldest(t, one)
 
     def put_back_uses(self, uses: Iterable[OverToken]) -> bool:
-        """Put what was given to reservoirs and taken from them back, as facts; False if the plan does not bear it."""
+        """Put what was given to reservoirs and taken from them back, as facts; False if the plan does not bear it.
+
+        Levels are those of all of them: one alone may be more than there is room for.
+        """
+        plan = self.bench.plan
+        plan.resources.relief, holds = _OtherUses(), True
         for one in uses:
-            t = self._made(one)
-            if t < 0:
-                return False
-            return_key(self.bench.plan)
-            self.bench.note_kept(t)
-        return True
+            t = self._made(one) if holds else NONE
+            holds = t >= 0
+            if holds:
+                return_key(plan)
+                self.bench.note_kept(t)
+        plan.resources.relief = None
+        return holds and fire(plan)
 
     def _made(self, one: OverToken) -> int:
         """A fact without rules, with what is known of the token that is over; NONE where that is inconsistent."""

@@ -51,15 +51,20 @@ def test_a_repair_that_forgets_the_past_keeps_what_was_consumed() -> None:
     assert outcome.abort is not None and (outcome.abort.code, outcome.abort.tick) == ("F4", 817)
 
 
-def flying_with_a_store(length: int, store: str, *goals: GoalConfiguration) -> list[str]:
+def flying_with_a_store(
+    length: int, store: str, *goals: GoalConfiguration, text: str = USER, more: str = ""
+) -> list[str]:
     """What a planner of three timelines with one store tells, whose task lasts as long as a simulator lets it."""
     usual = default_configuration()
     ordering = usual.__class__(usual.name, usual.filters, (*usual.managers, FlawManager("ResourceThreatManager")))
-    owner = simulator("sim", f"{ARM} Arm::Act {{ duration == {length}; }} Arm arm = new Arm(Internal); close();", "arm")
-    user = planner("user", f"Reservoir store = new Reservoir({store}); {ARM} {USER}", "task side more", "arm")
+    world = f"{ARM} {more} Arm::Act {{ duration == {length}; }} Arm arm = new Arm(Internal);"
+    world += " Src src = new Src(Internal); close();" if more else " close();"
+    owner = simulator("sim", world, "arm src" if more else "arm")
+    model = f"Reservoir store = new Reservoir({store}); {ARM} {more} {text}"
+    user = planner("user", model, "task side more", "arm src" if more else "arm")
     mission = flown(owner, user, until=60, goals=goals, solver=ordering)
     assert mission.report.holds
-    return lines(mission.outcome, "relax", "reject", "observation")
+    return lines(mission.outcome, "relax", "reject", "observation", "abort")
 
 
 def goal(timeline: str, predicate: str, start: int, recall: int | None = None) -> GoalConfiguration:
@@ -85,6 +90,25 @@ def test_a_repair_takes_back_the_order_in_which_uses_were_put() -> None:
         "45 observation sim arm Rest",
         "45 observation user task Idle",
     ]
+
+
+def test_what_is_given_back_and_taken_is_put_back_as_a_whole() -> None:
+    """What the go looks for never comes: the past is forgotten, but for 5 less 5 and 5 given back, less 5 again."""
+    source = 'class Src extends AgentTimeline { predicate A { } predicate B { } Src(Mode m) { super(m, "A"); } }'
+    seen = "More::Go { any(Src.B seen); start <= seen.start; seen.start <= start + 15; } Src src = new Src(Observe);"
+    goals = (goal("side", "Run", 2), goal("task", "Do", 5), goal("more", "Go", 24))
+    text = USER.replace(
+        "More::Go { duration == 5; any(store.consume use); use.time == start; use.quantity == 5.0; }", ""
+    )
+    told = flying_with_a_store(
+        8,
+        "5.0, 0.0, 5.0",
+        *goals,
+        text=text.replace("close();", f"{seen} More::Go {{ duration == 5; }} close();"),
+        more=source,
+    )
+    repairs = ["39 relax user keeping the past", "39 relax user forgetting the past"]
+    assert [line.split(":")[0] for line in told[-2:]] == repairs  # and no abort
 
 
 @pytest.mark.parametrize("body", ["GAIN starts(Side.Run r);", "starts(Side.Run r); GAIN"])

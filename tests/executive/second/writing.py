@@ -40,10 +40,7 @@ def model(description: Description, part: Part) -> str:
     text += [_class(kind, part) for kind in description.kinds if kind.timeline in used]
     text += [_store(store) for store in part.stores]
     for rule in part.rules:
-        items = [
-            _use(item, place) if isinstance(item, Use) else _item(item, "  ") for place, item in enumerate(rule.body)
-        ]
-        body = "\n".join(line for item in items for line in item)
+        body = "\n".join(line for item in rule.body for line in _item(item, "  "))
         text.append(f"{description.kind(rule.timeline).name}::{rule.predicate} {{\n{body}\n}}")
     for mode, timelines in (("Internal", part.internal), ("External", part.external), ("Observe", part.observed)):
         for timeline in timelines:
@@ -94,15 +91,6 @@ def _store(store: Store) -> str:
     return f"{store.kind} {store.name} = new {store.kind}({', '.join(f'{one}.0' for one in limits)});"
 
 
-def _use(use: Use, place: int) -> list[str]:
-    name = f"use{place}"
-    if use.when == "all":
-        return [f"  equals({use.store}.uses {name});", f"  {name}.quantity == {-use.amount}.0;"]
-    happens = "produce" if use.amount > 0 else "consume"
-    lines = [f"any({use.store}.{happens} {name});", f"{name}.time == {use.when};"]
-    return [f"  {line}" for line in (*lines, f"{name}.quantity == {abs(use.amount)}.0;")]
-
-
 def _item(item: Item, indent: str) -> list[str]:
     match item:
         case Bound(term, low, high):
@@ -120,6 +108,12 @@ def _item(item: Item, indent: str) -> list[str]:
         case Apart(term, other, low, high):
             lines = _tie(term, Tie("", other, low, high)) if other else _bounds(term, low, high)
             return [indent + line for line in lines]
+        case Use(store, amount, "all"):
+            return [f"{indent}equals({store}.uses held);", f"{indent}held.quantity == {-amount}.0;"]
+        case Use(store, amount, when):
+            happens = "produce" if amount > 0 else "consume"
+            lines = [f"any({store}.{happens} at_{when});", f"at_{when}.time == {when};"]
+            return [indent + line for line in (*lines, f"at_{when}.quantity == {abs(amount)}.0;")]
         case Between(first, relation, second):
             return [f"{indent}{first} {relation} {second};"]
         case Guarded(parameter, value, body):
