@@ -51,12 +51,14 @@ def synchronise(
     if failed is not None:
         return failed
     mark = bench.mark()
-    if _Search(bench, planner, timelines, tick, final_tick, asked, False).run() is None:
-        return None
-    # Choices fail all the time; only when all have failed is it worth while to find out why.
-    bench.rewind_to(mark)
-    search = _Search(bench, planner, timelines, tick, final_tick, asked, True)
-    failed, bench.plan.resources.relief = search.explained(search.run()), None
+    failed = _Search(bench, planner, timelines, tick, final_tick, asked, False).run()
+    if failed is not None:
+        # Choices fail all the time; only when all have failed is it worth while to find out why.
+        bench.rewind_to(mark)
+        search = _Search(bench, planner, timelines, tick, final_tick, asked, True)
+        failed, bench.plan.resources.relief = search.explained(search.run()), None
+    if planner.solver.relief is not None:
+        planner.solver.relief.within = None
     return failed
 
 
@@ -78,8 +80,7 @@ class _Search:
         self.planner = planner
         self.tick = tick
         self.is_last, self.asked = tick == final_tick, asked
-        self.timelines = timelines
-        self.relief = planner.solver.relief  # within what holds now
+        self.timelines, self.relief = timelines, planner.solver.relief
         self.lines = [line for line in timelines if not line.is_internal and line.news is not None]
         self.lines += sorted([line for line in timelines if line.is_internal], key=self._rank)
         self.made: list[int] = []
@@ -338,7 +339,7 @@ class _Search:
         """Leave a level to the end that what is open now may relieve, as planning does: no order of lines decides."""
         if self.relief is not None:
             window = self.planner.window
-            window.tick, window.end, window.is_present = self.tick, self.tick, True
+            window.tick, window.end, window.is_present, self.relief.within = self.tick, self.tick, True, window
             self.relief.count_guards()
             self.bench.plan.resources.relief = self.relief
 

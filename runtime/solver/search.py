@@ -98,8 +98,6 @@ class Solver:
         self.filters.has_scope = scope is not None
         if scope is not None:
             self.filters.scope = scope
-        if self.relief is not None:
-            self.relief.within = scope
 
     def refresh(self) -> None:
         """Start from the plan as it is, after a change from outside; no decision may be on the stack."""

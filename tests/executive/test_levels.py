@@ -133,3 +133,19 @@ close();
         "5 observation plan task Halt",
         "5 observation plan side Run",
     ]
+
+
+def test_a_command_is_not_ruled_out_by_a_level_that_its_child_relieves() -> None:
+    """Also where the child has its place only once the command has: that is planned after the level was looked at."""
+    world = f"""
+Reservoir store = new Reservoir(0.0, 0.0, 1.0);
+{ARM}
+class Lamp extends AgentTimeline {{ predicate Off {{ }} predicate On {{ }} Lamp(Mode m) {{ super(m, "Off"); }} }}
+Arm::Act {{ duration == 3; any(store.consume use); use.time == start; use.quantity == 1.0; starts(Lamp.On lit); }}
+Lamp::On {{ any(store.produce gain); gain.time == start; gain.quantity == 1.0; duration <= 3; }}
+Arm arm = new Arm(Internal);
+Lamp lamp = new Lamp(Internal);
+close();
+"""
+    outcome = fly(simulator("sim", world, "arm lamp"), goals=(goal("arm", "Act", 5),))
+    assert lines(outcome, "reject", "observation")[2:4] == ["5 observation sim arm Act", "5 observation sim lamp On"]

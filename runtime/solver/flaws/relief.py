@@ -42,7 +42,7 @@ class Relief:
             self.brings[sign] = [any(supports.leads_to(p, h) for h in helpers) for p in kinds]
             self.is_guarded[sign] = any(supports.is_guarded(h) for h in helpers)
         self.waiting = 0
-        self.within: PlanningScope | None = None  # what is decided now, where the rest cannot help
+        self.within: PlanningScope | None = None  # what alone is decided now, where no plan is made
 
     @property
     def is_possible(self) -> bool:
