@@ -206,7 +206,10 @@ def _held(reactor: ReactorRecord) -> set[tuple[str, str]]:
         return {(str(thing), predicate) for thing, predicate in begun}
     count = len(tokens.names)
     pairs = tokens.times.objects * count + tokens.times.predicates
-    pairs = np.flatnonzero(np.bincount(pairs[tokens.times.starts <= reactor.last_tick]))
+    has_begun = tokens.times.starts <= reactor.last_tick
+    if not has_begun.all():
+        pairs = pairs[has_begun]
+    pairs = np.flatnonzero(np.bincount(pairs))
     return {(tokens.names[pair // count], tokens.names[pair % count]) for pair in pairs.tolist()}
 
 

@@ -243,8 +243,10 @@ def _agrees(held: TokenRecord, one: Event, codes: Mapping[str, PredicateCode]) -
     if not one.arguments:
         return True
     parameters = codes[held.predicate].parameters
-    return len(parameters) == len(one.arguments) and all(
-        name == parameter.name
-        and (domain.interval == (value, value) if domain.values is None else domain.values == (value,))
-        for (name, domain), parameter, value in zip(one.arguments, parameters, held.arguments, strict=False)
-    )
+    if len(parameters) != len(one.arguments):
+        return False
+    for (name, domain), parameter, value in zip(one.arguments, parameters, held.arguments, strict=False):
+        holds = domain.interval == (value, value) if domain.values is None else domain.values == (value,)
+        if name != parameter.name or not holds:
+            return False
+    return True

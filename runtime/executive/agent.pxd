@@ -12,9 +12,13 @@ cdef class Agent:
     cdef public Trace trace
     cdef public bint every_tick
     cdef public list reactors, ahead, awake, killed, stirred
-    cdef public dict owners, users, senders, takers, made, places
-    cdef public object seed, latest
-    cdef public long long tick
+    cdef public dict owners, users, senders, takers, made
+    cdef public object seed
+    cdef public long long tick, posts_at, last_place
+    cdef public double last_urgency
+
+    @cython.locals(final_tick="long long", last="long long", visits="long long")
+    cpdef object run(self, object until=*)
 
     @cython.locals(reactor=TeleoReactor, soonest="long long", tick="long long")
     cpdef object _advance(self, long long last)
@@ -30,13 +34,13 @@ cdef class Agent:
     @cython.locals(reactor=TeleoReactor)
     cpdef object _publish(self, list observations)
 
-    @cython.locals(busy=list, reactor=TeleoReactor)
+    @cython.locals(busy=list, reactor=TeleoReactor, urgency=double)
     cpdef object _deliberate(self)
 
     @cython.locals(has_more=bint, made="long long")
     cpdef bint _step(self, TeleoReactor reactor) except -1
 
-    @cython.locals(first=TeleoReactor, most=double, reactor=TeleoReactor, urgency=double)
+    @cython.locals(first=TeleoReactor, k="long long", most=double, reactor=TeleoReactor, urgency=double)
     cpdef TeleoReactor _most_urgent(self, list busy)
 
     cpdef object _post_goals(self, list busy)
@@ -47,7 +51,7 @@ cdef class Agent:
 
     cpdef object _recall(self, number, list busy)
 
-    cpdef tuple _turn(self, TeleoReactor reactor)
+    cpdef bint _is_later(self, double urgency, long long place) except -1
 
     @cython.locals(sender=TeleoReactor)
     cpdef object _rouse(self, refusal, list busy)

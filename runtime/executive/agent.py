@@ -25,7 +25,6 @@ from runtime.limits import TIME_LIMIT
 
 _START, _SYNCHRONISE, _OBSERVE = Phase.START, Phase.SYNCHRONISE, Phase.OBSERVE
 _DELIBERATE, _DISPATCH = Phase.DELIBERATE, Phase.DISPATCH
-_FIRST = (inf, 0)  # before all turns
 _UNWATCHED = 256  # visits between two looks at how long the mission has taken
 
 
@@ -48,10 +47,9 @@ class Agent:
         self.every_tick = every_tick
         self.poster = GoalPoster(goals, configuration.goals, trace)
         self.reactors = in_order(reactors)
-        self.places = {reactor: place for place, reactor in enumerate(self.reactors)}
         tell_owners(self.reactors)
-        for reactor in self.reactors:
-            reactor.is_metered = self.clock.is_metered
+        for place, reactor in enumerate(self.reactors):
+            reactor.place, reactor.is_metered = place, self.clock.is_metered
         self.ahead = [reactor for reactor in self.reactors if reactor.runs_ahead]
         if self.ahead == self.reactors[:1]:
             self.ahead = []  # nothing comes between what it has carried out already and what it does now
@@ -71,7 +69,8 @@ class Agent:
         if tells_on:
             trace.tell_on = self._told_on
         self.tick = 0
-        self.latest = _FIRST  # of all turns of a tick
+        self.posts_at = self.poster.due
+        self.last_urgency, self.last_place = inf, 0  # of the latest turn of a tick; before all turns
 
     def run(self, until: int | None = None) -> Outcome:
         """Carry out the mission from tick 0 to the final tick, to `until`, or to the abort."""
@@ -114,7 +113,7 @@ class Agent:
         tick = self.tick
         for reactor in self.awake:
             reactor.due = reactor.next_tick(tick)
-        soonest = self.poster.due
+        soonest = self.posts_at
         for reactor in self.reactors:
             soonest = min(soonest, reactor.due)
         self.tick = min(max(tick + 1, soonest), last)
@@ -179,7 +178,7 @@ class Agent:
         Who has finished tells owners what it needs of them, and they plan for it in the same tick.
         """
         busy = list(self.awake)
-        self.latest = _FIRST
+        self.last_urgency, self.last_place = inf, 0
         abort = self._post_goals(busy)
         while (busy or self.stirred) and abort is None:
             while self.stirred and abort is None:
@@ -187,7 +186,9 @@ class Agent:
             if abort is not None or not busy:
                 continue
             reactor = self._most_urgent(busy)
-            self.latest = min(self.latest, self._turn(reactor))
+            urgency = reactor.urgency(self.tick)
+            if self._is_later(urgency, reactor.place):
+                self.last_urgency, self.last_place = urgency, reactor.place
             self.trace.phase = _DELIBERATE
             if self._step(reactor):
                 continue
@@ -217,20 +218,22 @@ class Agent:
             return busy[0]
         first = busy[0]
         most = first.urgency(self.tick)
-        for reactor in busy[1:]:
+        for k in range(1, len(busy)):
+            reactor = busy[k]
             urgency = reactor.urgency(self.tick)
-            if urgency > most or (urgency == most and self.places[reactor] < self.places[first]):
+            if urgency > most or (urgency == most and reactor.place < first.place):
                 first, most = reactor, urgency
         return first
 
     def _post_goals(self, busy: list[TeleoReactor]) -> Abort | None:
         """Hand the goals of the mission file that are due to the owners of their timelines, or take them back."""
         self.trace.phase = _START
-        if self.tick < self.poster.due:
+        if self.tick < self.posts_at:
             return None
         for request in self.poster.hand_out(self.tick, self.owners):
             if (abort := self._ask(request, busy)) is not None:
                 return abort
+        self.posts_at = self.poster.due
         for number in self.poster.take_back(self.tick):
             if (abort := self._recall(number, busy)) is not None:
                 return abort
@@ -292,9 +295,9 @@ class Agent:
             owner.recall(number)
         return abort
 
-    def _turn(self, reactor: TeleoReactor) -> tuple[float, int]:
-        """What decides whose turn it is: the largest comes first."""
-        return reactor.urgency(self.tick), -self.places[reactor]
+    def _is_later(self, urgency: float, place: int) -> bool:
+        """Whether a turn comes after all that there were in this tick: the most urgent first, then by place."""
+        return urgency < self.last_urgency or (urgency == self.last_urgency and place > self.last_place)
 
     def _rouse(self, refusal: Refusal, busy: list[TeleoReactor]) -> Abort | None:
         """Wake who sleeps though what it asked for is refused; it has its turn unless that would have been before."""
@@ -302,7 +305,7 @@ class Agent:
         if sender is None or sender in self.awake or sender not in self.reactors:
             return None
         abort = self._synchronise_one(sender)
-        if abort is None and sender in self.reactors and self._turn(sender) < self.latest:
+        if abort is None and sender in self.reactors and self._is_later(sender.urgency(self.tick), sender.place):
             busy.append(sender)
         return abort
 

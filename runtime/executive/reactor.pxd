@@ -7,7 +7,7 @@ cdef class TeleoReactor:
     cdef public str name
     cdef public tuple internal, external
     cdef public list lacking
-    cdef public long long latency, lookahead, due, missed, decisions_made
+    cdef public long long latency, lookahead, due, missed, decisions_made, place
     cdef public bint is_metered, runs_ahead
 
     cpdef long long untold(self) except? -1

@@ -84,6 +84,7 @@ class TeleoReactor:
         self.due = 0  # the next tick at which it has something to do; earlier ones cost nothing
         self.missed = _NEVER  # the tick in which the mission ended before its turn came
         self.decisions_made = 0  # in this tick
+        self.place = 0  # among all, in the order of synchronising
         self.lacking: list[Refusal] = []  # of requests: over in this tick, without what they needed of others
         self.is_metered = False  # whether the clock grants so many steps a tick
         self.runs_ahead = False  # whether it carries out ticks before the agent comes to them; then it is never asleep
