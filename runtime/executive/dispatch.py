@@ -1,6 +1,6 @@
 """Decide which planned tokens are asked of the owners of their timelines, and when requests are taken back."""
 
-from runtime.executive.holding import due_start, free_at, hangs_on_action, is_blocked, is_tied, keeps_next
+from runtime.executive.holding import due_start, follows_late, free_at, hangs_on_action, is_blocked, is_tied, keeps_next
 from runtime.executive.messages import Request
 from runtime.executive.outcome import EventKind, TimeBounds
 from runtime.executive.timelines import NOTHING, TimelineState
@@ -110,7 +110,9 @@ class Dispatch:
         if self.bench.lower(self.bench.start(token)) >= final_tick or self.due_time(line, token, tick) > tick:
             return False
         # What an action needs is not waited with: often the world changes by that alone (T-REX 1.8).
-        return hangs_on_action(self.bench, token) or not is_blocked(self.bench, token, line.current, tick)
+        if hangs_on_action(self.bench, token):
+            return True
+        return not is_blocked(self.bench, token, line.current, tick) and not follows_late(self.bench, token, tick)
 
     def due_time(self, line: TimelineState, token: int, tick: int) -> float:
         """The tick at which the owner is to be asked for a token (T-REX 1.8).
@@ -127,7 +129,9 @@ class Dispatch:
         token = self.next_request(line)
         if token != NOTHING:
             due = self.due_time(line, token, tick)
-            return due if hangs_on_action(bench, token) else max(due, free_at(bench, token, line.current, tick))
+            if hangs_on_action(bench, token):
+                return due
+            return INFINITY if follows_late(bench, token, tick) else max(due, free_at(bench, token, line.current, tick))
         # What waits for the end of what is open there is to be asked for when it cannot wait any more.
         before = self.open_now(line)
         token = bench.next_of(line.object_id, line.current)

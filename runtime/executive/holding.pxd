@@ -14,6 +14,11 @@ cdef long long SPAN_CLOCK, SPAN_EXECUTIVE, START, SUPPORT_EDGE, SUPPORT_RESTRICT
 @cython.locals(ends=list, start="long long")
 cpdef bint is_blocked(Workbench bench, long long t, long long current, long long tick) except -1
 
+@cython.locals(
+    e="long long", engine=Engine, i="long long", is_before=bint, met=SparseSet, start="long long", v="long long"
+)
+cpdef bint follows_late(Workbench bench, long long t, long long tick) except -1
+
 cpdef bint hangs_on_action(Workbench bench, long long t) except -1
 
 @cython.locals(
@@ -44,6 +49,9 @@ cpdef list _awaited_ends(Workbench bench, long long t, long long current, long l
 cpdef bint _is_held_back(Workbench bench, long long t, long long current, long long tick) except -1
 
 @cython.locals(other="long long", plan=Plan)
+cpdef bint _begins_late(Workbench bench, long long v, long long t) except -1
+
+@cython.locals(other="long long", plan=Plan)
 cpdef bint _is_awaited(Workbench bench, long long v, long long t, long long current, long long tick) except -1
 
 @cython.locals(
@@ -52,4 +60,4 @@ cpdef bint _is_awaited(Workbench bench, long long v, long long t, long long curr
 cpdef bint _ends_with(Workbench bench, long long v, long long t) except -1
 
 @cython.locals(holds=bint, mark="long long")
-cpdef bint _may_follow(Workbench bench, long long v, long long w) except -1
+cpdef bint _may_follow(Workbench bench, long long v, long long w, long long by) except -1

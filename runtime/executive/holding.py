@@ -19,6 +19,30 @@ def is_blocked(bench: Workbench, t: int, current: int, tick: int) -> bool:
     return len(ends) > 0 or _is_held_back(bench, t, current, tick)
 
 
+def follows_late(bench: Workbench, t: int, tick: int) -> bool:
+    """Whether `t` is to begin after something of this reactor that has not begun, and begins as late as it may.
+
+    An owner that begins `t` before that breaks the plan. What must begin when that does, at the latest, cannot wait.
+    """
+    engine, met = bench.engine, bench.met
+    start = bench.start(t)
+    met.empty(engine.variables)
+    met.add(start)
+    i = 0
+    while i < met.count:
+        e = engine.out_head[met.items[i]]
+        while e >= 0:
+            v = engine.edge_target[e]
+            if engine.edge_weight[e] <= 0 and not met.has(v) and engine.upper(v) > tick:
+                is_before = _begins_late(bench, v, t) and engine.upper(v) < engine.upper(start)
+                if is_before and not _may_follow(bench, v, start, 0):
+                    return True
+                met.add(v)
+            e = engine.out_next[e]
+        i += 1
+    return False
+
+
 def hangs_on_action(bench: Workbench, t: int) -> bool:
     """Whether `t` is an action, or a condition or an effect of one, or follows from such a token.
 
@@ -111,7 +135,7 @@ def is_tied(bench: Workbench, end: int, start: int) -> bool:
     engine = bench.engine
     if engine.lower(start) != engine.lower(end) or engine.upper(start) != engine.upper(end):
         return False
-    return not _may_follow(bench, start, end)
+    return not _may_follow(bench, start, end, 1)
 
 
 def _awaited_ends(bench: Workbench, t: int, current: int, tick: int) -> list[int]:
@@ -157,6 +181,17 @@ def _is_held_back(bench: Workbench, t: int, current: int, tick: int) -> bool:
     return bool(engine.restriction_span[support >> 2] == SPAN_CLOCK) and engine.upper(v) > tick
 
 
+def _begins_late(bench: Workbench, v: int, t: int) -> bool:
+    """Whether `v` is the start of a token of this reactor, other than `t`, that nobody asked for."""
+    plan = bench.plan
+    if plan.variable_role[v] != ROLE_TOKEN or plan.variable_name[v] != START:
+        return False
+    other = bench.stands_for(plan.variable_owner[v])
+    return (
+        other != bench.stands_for(t) and bench.object_of(other) in bench.late_objects and not bench.is_requested(other)
+    )
+
+
 def _is_awaited(bench: Workbench, v: int, t: int, current: int, tick: int) -> bool:
     """Whether `v` is the open end of a token on another reactor's timeline, other than what `t` replaces."""
     plan = bench.plan
@@ -185,12 +220,12 @@ def _ends_with(bench: Workbench, v: int, t: int) -> bool:
                 met.add(engine.edge_target[e])
             e = engine.out_next[e]
         i += 1
-    return met.has(begins) and not _may_follow(bench, bench.start(after), begins)
+    return met.has(begins) and not _may_follow(bench, bench.start(after), begins, 1)
 
 
-def _may_follow(bench: Workbench, v: int, w: int) -> bool:
-    """Whether the plan lets `v` come after `w`."""
+def _may_follow(bench: Workbench, v: int, w: int, by: int) -> bool:
+    """Whether the plan lets `v` come after `w`, by so many ticks at least."""
     mark = bench.mark()
-    holds = bench.engine.add_edge(v, w, -1, SPAN_EXECUTIVE, NONE)
+    holds = bench.engine.add_edge(v, w, -by, SPAN_EXECUTIVE, NONE)
     bench.release(mark)
     return bool(holds)

@@ -3,7 +3,7 @@
 import pytest
 
 from runtime.executive.configuration import GoalConfiguration
-from tests.executive.flying import fly, history, planner
+from tests.executive.flying import fly, history, lines, planner
 
 ARM = (
     'class Arm extends AgentTimeline { predicate Free { } predicate Work { int n; } Arm(Mode m) { super(m, "Free"); } }'
@@ -62,3 +62,38 @@ def test_what_follows_a_command_is_still_planned_when_that_is_over_by_who_looks_
         "9 Work(n=1)",
         "15 Work(n=0)",
     ]
+
+
+BOSS = """
+class Dev extends AgentTimeline { predicate Off { } predicate On { } Dev(Mode m) { super(m, "Off"); } }
+class Gate extends AgentTimeline { predicate Shut { } predicate Ajar { } Gate(Mode m) { super(m, "Shut"); } }
+class Shift extends AgentTimeline {
+    predicate Idle { } predicate Handle { } predicate Load { } predicate Finish { }
+    Shift(Mode m) { super(m, "Idle"); }
+}
+Shift::Load { contained_by(Gate.Ajar gate); gate.start + 4 <= start; end + 3 == gate.end; duration == 10; }
+Shift::Handle { contains(Dev.On on); on.start <= start + 5; on.end == end; }
+Shift::Finish { after(object.Load load); contains(Dev.On on); on.start <= start + 5; on.end == end; }
+Shift shift = new Shift(Internal);
+Gate gate = new Gate(Internal);
+Dev dev = new Dev(External);
+close();
+"""
+DEV = """
+class Dev extends AgentTimeline { predicate Off { } predicate On { } Dev(Mode m) { super(m, "Off"); } }
+Dev::On { duration == 8; }
+Dev dev = new Dev(Internal);
+close();
+"""
+
+
+def test_nothing_is_asked_for_a_goal_behind_what_begins_as_late_as_it_may() -> None:
+    # The gate was asked for by nobody, so that the load waits for it, and the goal behind that for the load.
+    starts = {"Handle": (3, 8), "Load": (20, 40), "Finish": (20, 60)}
+    goals = tuple(GoalConfiguration("shift", name, start=start) for name, start in starts.items())
+    boss = planner("boss", BOSS, "shift gate", "dev", latency=1)
+    outcome = fly(boss, planner("world", DEV, "dev", lookahead=60), until=100, goals=goals)
+    assert not lines(outcome, "recall", "relax", "reject")
+    assert lines(outcome, "request")[3:] == ["0 request boss dev On", "36 request boss dev On"]
+    assert [line for line in history(outcome, "gate") if "Ajar" in line] == ["36 Ajar"]
+    assert history(outcome, "dev") == ["0 Off", "3 On", "11 Off", "50 On", "58 Off"]
