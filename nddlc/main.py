@@ -21,6 +21,7 @@ from nddlc.fitting import columns, fitted
 from runtime.limits import LimitError
 from runtime.user.black_box import HERE
 from runtime.user.fault import UserCodeError
+from runtime.user.output import let_readers_go
 
 # A subcommand is one file, imported only when it is used; a new one needs a line here and nothing else.
 COMMANDS = {
@@ -204,6 +205,7 @@ def _open_streams() -> None:
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
             setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115 it stays
+    let_readers_go()
 
 
 def main() -> None:

@@ -263,6 +263,20 @@ def test_a_closed_stream_changes_no_verdict(closed: str, lamp: str) -> None:
     assert subprocess.run(["sh", "-c", command], check=False).returncode == 0
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a shell that joins commands")
+@pytest.mark.parametrize(("words", "code"), [("plan LAMP", 0), ("lint wrong.nddl", 1), ("rule --list", 0)])
+@pytest.mark.parametrize("lost", ["", "2>&1"])
+def test_a_reader_that_goes_away_changes_no_verdict(
+    words: str, code: int, lost: str, lamp: str, tmp_path: Path
+) -> None:
+    (tmp_path / "wrong.nddl").write_text("int a = b;\n")
+    told = f"'{sys.executable}' -m nddlc.main {words.replace('LAMP', lamp)} {lost}"
+    command = f"cd '{tmp_path}'; ({told}; echo $? > code) | true"
+    done = subprocess.run(["sh", "-c", command], check=False, capture_output=True, text=True)
+    assert (tmp_path / "code").read_text() == f"{code}\n"
+    assert done.stderr == ""
+
+
 @pytest.mark.parametrize("command", ["load", "plan", "lint"])
 def test_an_engine_that_is_not_compiled_says_so_once(
     command: str, lamp: str, capsys: Captured, monkeypatch: pytest.MonkeyPatch
