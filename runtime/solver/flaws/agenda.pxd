@@ -101,6 +101,3 @@ cdef class Agenda:
 
 
 cpdef int _fill(long long[::1] row, long long value, long long count) except -1
-
-
-cpdef int _zero(long long[::1] row, long long count) except -1

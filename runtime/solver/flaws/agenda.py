@@ -92,7 +92,7 @@ class Agenda:
         _fill(self.token_row, NONE, slots)
         _fill(self.token_key, NO_KEY, slots)
         _fill(self.token_waiting, NONE, used)
-        _zero(self.token_deferred, used)
+        _fill(self.token_deferred, 0, used)
         for i in range(self.touched.count):
             v = self.touched.items[i]
             self.touched.marks[v] = 0
@@ -113,16 +113,16 @@ class Agenda:
 
     def _forget_levels(self) -> None:
         """Forget the decision levels of everything; nothing has one before the first decision."""
-        _zero(self.token_level, self.tokens_used)
-        _zero(self.active_level, self.tokens_used)
-        _zero(self.order_level, self.tokens_used)
-        _zero(self.variable_level, self.variables_used)
-        _zero(self.edge_level, self.edges_used)
-        _zero(self.constraint_level, self.constraints_used)
-        _zero(self.restriction_level, self.restrictions_used)
+        _fill(self.token_level, 0, self.tokens_used)
+        _fill(self.active_level, 0, self.tokens_used)
+        _fill(self.order_level, 0, self.tokens_used)
+        _fill(self.variable_level, 0, self.variables_used)
+        _fill(self.edge_level, 0, self.edges_used)
+        _fill(self.constraint_level, 0, self.constraints_used)
+        _fill(self.restriction_level, 0, self.restrictions_used)
         _fill(self.fired_scope, NONE, len(self.fired_scope))
-        _zero(self.fired_end, len(self.fired_end))
-        _zero(self.waiting_guards, len(self.waiting_guards))
+        _fill(self.fired_end, 0, len(self.fired_end))
+        _fill(self.waiting_guards, 0, len(self.waiting_guards))
         self.level = 0
 
     def reserve(self) -> None:
@@ -389,9 +389,3 @@ def _fill(row: "array[int]", value: int, count: int) -> None:
     """Give the first numbers of a table a value."""
     for k in range(count):
         row[k] = value
-
-
-def _zero(row: "array[int]", count: int) -> None:
-    """Set the first numbers of a table to 0: of a constant C makes one call."""
-    for k in range(count):
-        row[k] = 0
