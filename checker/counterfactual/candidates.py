@@ -20,7 +20,7 @@ from checker.counterfactual.promises import first_violated, forbids_values, prom
 from checker.counterfactual.python_ways import read_in_python
 from checker.counterfactual.removals import forbidden_by, limited_between, removes_check
 from checker.counterfactual.smallness import is_loosening
-from checker.counterfactual.time_spent import time_spent
+from checker.counterfactual.time_spent import limited_token, time_inside, time_spent
 from checker.culprit import culprit_of, own_elements
 from checker.mutation.edits import EditSite, SmallEdit
 from checker.oracle import given_up
@@ -179,6 +179,10 @@ def candidates_of(
     for predicate, share in time_spent(outcome).items():
         for number in graph.lasting(predicate):
             put(number, -math.log(share), Suspicion.TRACE)
+    parts = graph.children(limited_token(outcome))
+    for predicate, share in time_inside(outcome).items():
+        for number, steps in graph.lengthening(predicate) if predicate in parts else ():
+            put(number, -math.log(share) + _STEP * steps, Suspicion.TRACE)
     for span in exercised:
         for number in graph.within(span):
             put(number, _COVERED, Suspicion.COVERAGE)

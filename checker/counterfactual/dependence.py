@@ -122,6 +122,31 @@ class Dependence:
             if str(key[1]).rpartition(".")[2] == predicate:
                 yield from (one for one in self.setting(str(key[1]), DURATION_NAME) if self._is_duration(one))
 
+    def children(self, predicate: str) -> set[str]:
+        """The predicates, without their classes, that a predicate's rule relates in time, and the rules of these."""
+        found, waiting = set[str](), [predicate]
+        while waiting:
+            rule = waiting.pop()
+            sites = [number for number, site in enumerate(self.sites) if site.rule == rule]
+            new = self.tokens_at(sites) - found - {predicate}
+            found |= new
+            waiting += sorted(new)
+        return {name.rpartition(".")[2] for name in found}
+
+    def lengthening(self, predicate: str) -> Iterator[tuple[int, int]]:
+        """The sites of `lasting`, those behind them by local variables, and by which others ask for what these read.
+
+        Each with how many steps away it is.
+        """
+        lasting = list(self.lasting(predicate))
+        for rule in sorted({self.sites[one].rule for one in lasting}):
+            lines = dict(self._by_locals([one for one in lasting if self.sites[one].rule == rule], rule))
+            yield from lines.items()
+            for site, steps in lines.items():
+                for key in sorted((one for one in self._keys[site] if one[:2] == ("token", rule)), key=str):
+                    if key[2] != TIMES:
+                        yield from ((one, steps + 1) for one in self.asking(rule, str(key[2])))
+
     def _is_duration(self, site: int) -> bool:
         return re.match(rf"\s*{DURATION_NAME}\s*==", self.sites[site].text) is not None
 

@@ -30,6 +30,7 @@ from checker.culprit import checks_of, is_of_values, lacking_in
 from checker.limits import Limit
 from checker.mission import Mission
 from checker.mutation.additions import with_additions
+from checker.mutation.arguments import with_arguments
 from checker.mutation.edits import EditSite, SmallEdit, sites_of
 from checker.mutation.kinds import OUTSIDE
 from checker.mutation.labels import labels_of
@@ -41,7 +42,7 @@ from checker.proofs.places import text_of
 from checker.sampling.sampler import with_point
 from compiler.program import Program
 from nddl_lang.text.diagnostic import Diagnostic
-from nddl_lang.text.read import real_path
+from nddl_lang.text.read import read_text, real_path
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.events import single_events
 from runtime.executive.outcome import ElementKind, Outcome
@@ -111,7 +112,7 @@ def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]
     for model in dict.fromkeys(each.model for each in agent.reactors):
         for site in sites_of(load_graph(root / model, overlay)):
             found.setdefault((site.file, site.first, site.text), site)
-    sites = list(found.values())
+    sites = with_arguments(list(found.values()), [read_text(root / name) or "" for name in agent.constraints])
     return with_successors(with_durations(with_additions(sites, labels_of(agent.goals, sites))))
 
 

@@ -1,10 +1,12 @@
-"""A mission that was too late by the clock in; out: what its time went on, the share of each predicate.
+"""A mission that was too late in; out: what its time went on, the share of each predicate.
 
 Where a conflict rests on a time that the mission file gives, or the mission's time was over, all that was asked for and
-done before counts: what took twice the time is twice as likely to be what took too long.
+done before counts: what took twice the time is twice as likely to be what took too long. Where a token lasted longer
+than it may, so does what was done since it began.
 """
 
 from checker.causes import failed_by
+from checker.culprit import culprit_of
 from compiler.program import TOKEN_TIMES
 from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import ElementKind, EventKind, Outcome
@@ -19,25 +21,47 @@ def time_spent(outcome: Outcome) -> dict[str, float]:
     """
     if not _is_late_by_clock(outcome) or outcome.last_tick < 1:
         return {}
+    return _shares(outcome, 0)
+
+
+def time_inside(outcome: Outcome) -> dict[str, float]:
+    """The share of the time of a token that each predicate held that was asked for, where `limited_token` names one."""
+    predicate = limited_token(outcome).rpartition(".")[2]
+    begun = [tick for _, tick, _, name in heads_of(outcome.events) if name == predicate]
+    return _shares(outcome, begun[-1]) if begun and begun[-1] < outcome.last_tick else {}
+
+
+def limited_token(outcome: Outcome) -> str:
+    """The predicate of the token that a mission broke on as a line limits how long it lasts; empty where none does."""
+    element = culprit_of(failed_by(outcome).conflict).element
+    variables = element.variables if element is not None and element.kind is ElementKind.CONSTRAINT else ()
+    times = {(one.token.predicate, one.name) for one in variables if one.token is not None and one.name in TOKEN_TIMES}
+    predicates, names = ({each[at] for each in times} for at in (0, 1))
+    is_length = len(predicates) == 1 and names in ({TOKEN_TIMES[2]}, set(_MOMENTS))
+    return predicates.pop() if is_length else ""
+
+
+def _shares(outcome: Outcome, since: int) -> dict[str, float]:
+    """The share of the time from a tick to the end that each predicate held that was asked for, where longest."""
     asked = {one.predicate for one in single_events(outcome.events) if one.kind is EventKind.REQUEST}
     held: dict[tuple[str, str], int] = {}
     now: dict[str, tuple[str, int]] = {}
     for _, tick, timeline, predicate in heads_of(outcome.events):
         if timeline in now:
             _add(held, timeline, now[timeline], tick)
-        now[timeline] = (predicate, tick)
+        now[timeline] = (predicate, max(tick, since))
     for timeline, last in now.items():
         _add(held, timeline, last, outcome.last_tick)
     found: dict[str, float] = {}
     for (_, predicate), ticks in held.items():
         if predicate in asked and ticks > 0:
-            found[predicate] = max(found.get(predicate, 0.0), ticks / outcome.last_tick)
+            found[predicate] = max(found.get(predicate, 0.0), ticks / (outcome.last_tick - since))
     return found
 
 
 def _add(held: dict[tuple[str, str], int], timeline: str, begun: tuple[str, int], until: int) -> None:
     key = timeline, begun[0]
-    held[key] = held.get(key, 0) + until - begun[1]
+    held[key] = held.get(key, 0) + max(until - begun[1], 0)
 
 
 def _is_late_by_clock(outcome: Outcome) -> bool:

@@ -172,9 +172,9 @@ class Usage:
         return -_ODD.get(edit.kind, _MADE_ODD) if gain < 0 else 0.0
 
     def is_fitting(self, edit: SmallEdit, site: EditSite) -> bool:
-        """Whether a line asks for a name: by a constant that bears it, the same on the other side, or a sibling."""
+        """Whether a line asks for a name: by a constant or argument that bears it, its other side, or a sibling."""
         is_fit = self.affinity.kindred(edit, site) > 0 or self.mentions.likeness(edit, site) > 0.0
-        return is_fit or self.siblings.completes(edit, site)
+        return is_fit or (edit.begin, edit.new) in site.wanted or self.siblings.completes(edit, site)
 
     def odds(self, edit: SmallEdit, site: EditSite) -> float:
         """Logarithm of how much likelier the old word of a relation or comparison is meant than the new one."""

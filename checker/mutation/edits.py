@@ -84,9 +84,9 @@ class EditSite:
     A branch has the lines of its condition. `scope` are the lines of the whole rule. `named` is the global variable
     that is set here, a number if `is_number`; `is_rule`: it is the head of a rule, for which something may be missing.
     `begin` is its offset. `agreeing` edits, each by its offset and what it writes, give both sides of `==` one type.
-    `is_apart`: the two can hardly be compared. `wanted` edits, given alike, make of a copy what it was copied for.
-    `unlike` edits, given alike, write a whole number for a real one, or the other way round, unless they agree; of a
-    goal, a number beyond those of the other goals, where it lies among them.
+    `is_apart`: the two can hardly be compared. `wanted` edits, given alike, make of a copy what it was copied for, or
+    hand a function what it calls its argument. `unlike` edits, given alike, write a whole number for a real one, or the
+    other way round, unless they agree; of a goal, a number beyond those of all other goals, where it lies among them.
     `noted` edits, given alike, write a number that a comment names, where it does not name the one that stands there;
     where it does, that is `stated`, by its offset. `is_rate`: a comment says that what is set is so much per something.
     `inputs` are the numbers, each with its type, that the token of a rule brings along, told at its head.

@@ -1,10 +1,14 @@
 """What is too late by the clock: the mistake is the likelier in what took most of the time, however long ago."""
 
+import math
 from pathlib import Path
 
 import pytest
 
-from checker.counterfactual.time_spent import time_spent
+from checker.counterfactual.candidates import candidates_of
+from checker.counterfactual.dependence import Dependence
+from checker.counterfactual.search import sites_in
+from checker.counterfactual.time_spent import limited_token, time_inside, time_spent
 from runtime.executive.outcome import Outcome
 from tests.checker.checked import faults_of
 from tests.checker.fault_study import faults_in, laid_out
@@ -13,7 +17,9 @@ from tests.checker.told_steps import failed_mission
 pytestmark = pytest.mark.once
 
 FAB = Path(__file__).parent / "unseen" / "fab"
+BALLOON = FAB.parent / "balloon"
 VENTING, QUEUE_MAX = 3, 6  # 120 for 12; 160 for 300
+BALLAST = 3  # sand for as many frames as for metres
 
 
 def flown(number: int, folder: Path) -> Outcome:
@@ -35,6 +41,34 @@ def test_a_limit_on_a_duration_asks_nothing_of_what_was_before(tmp_path: Path) -
     outcome = flown(QUEUE_MAX, tmp_path)
     assert outcome.abort is not None
     assert time_spent(outcome) == {}
+
+
+def test_a_limit_on_a_duration_asks_what_was_done_since_the_token_began(tmp_path: Path) -> None:
+    outcome = flown(QUEUE_MAX, tmp_path)
+    assert limited_token(outcome) == "Flow.Wafer"
+    shares = time_inside(outcome)
+    assert max(shares.keys() - {"Wafer"}, key=shares.__getitem__) == "Process"
+    assert shares["Process"] == pytest.approx(71 / 160)
+    assert shares["Vent"] == pytest.approx(12 / 160)  # of two before it began, 24 more
+
+
+def test_what_a_part_of_a_limited_token_took_leads_to_the_line_that_asked_for_so_much(tmp_path: Path) -> None:
+    place = laid_out(BALLOON, list(faults_in(BALLOON))[BALLAST], tmp_path / "balloon")
+    campaign, result = failed_mission(place, 1)
+    assert result.outcome is not None
+    models = campaign.models
+    graph = Dependence(list(models.programs.values()), sites_in(models.agent))
+    assert {"Climbs", "Shoots", "Sends"} <= graph.children("Flight.Survey")
+    assert "Braced" not in graph.children("Flight.Survey")
+    steps = {graph.sites[number].text: step for number, step in graph.lengthening("Climbs")}
+    assert steps["duration == ceil(time);"] < steps["rate == lift * ballast;"]
+    assert steps["climb.ballast == sand_for(frames);"] == steps["rate == lift * ballast;"] + 1
+    found = candidates_of(result.outcome, graph, place, models.agent.properties, coded=models.agent.coded)
+    far = {one.site.text: one.far for one in found}
+    share = time_inside(result.outcome)["Climbs"]
+    assert far["duration == ceil(time);"] == pytest.approx(-math.log(share))
+    assert far["duration == ceil(time);"] < far["rate == lift * ballast;"] < far["film != none;"]
+    assert far["climb.ballast == sand_for(frames);"] < -math.log(share) + 1.0
 
 
 def test_the_line_that_made_a_deadline_late_hours_ago_is_the_first_cause(
