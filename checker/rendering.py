@@ -17,6 +17,7 @@ from checker.oracle import CODE_NAMES, Judgement
 from checker.proofs.called import Called
 from checker.proofs.conflict import Confirmation, Finding
 from checker.requested import PlannerChoice
+from checker.resource_lines import user_text
 from checker.sampling.rendering import describe, number
 from checker.standing import Standing
 from checker.steps import Step, StepKind
@@ -47,6 +48,7 @@ from runtime.executive.rendering import (
     token_text,
 )
 from runtime.plan.readout.names import VariableName
+from runtime.plan.readout.open_levels import LevelUser
 from runtime.plan.readout.statements import Term
 
 _COMPARED = re.compile(r"[<>=!]")
@@ -160,6 +162,8 @@ def step_text(step: Step, story: Story) -> str:
             return waiting_text(waiting)
         case LevelChange() as change:
             return _change_text(change)
+        case LevelUser() as user:
+            return user_text(user)
         case Abort() | None as abort:
             return _end_text(abort, story)
         case _:
@@ -196,7 +200,8 @@ def beside(step: Step) -> list[tuple[str, SourcePlace, bool]]:
     """The lines that are told beside the one of a step: what each is, where it stands, and whether that is marked."""
     told = [("where the object is made", step.made, False)] if step.made is not None else []
     told += [(_standing_text(one), one.place, False) for one in step.under]
-    return [*told, *(("where the limit is set", limit, True) for limit in step.limits)]
+    said = "with the number of" if step.kind is StepKind.LEVEL else "where the limit is set"
+    return [*told, *((said, limit, step.kind is not StepKind.LEVEL) for limit in step.limits)]
 
 
 def _standing_text(standing: Standing) -> str:

@@ -172,13 +172,24 @@ def lines_of_amount(change: LevelChange, programs: Mapping[str, Program], root: 
     program = programs.get(change.reactor)
     if program is None:
         return ()
-    numbers, amount = dict(numbers_of(program)), abs(change.amount)
+    amount = abs(change.amount)
+    found = (lines_of_event(program, asker, event, root, amount) for asker, event in change.askers)
+    return tuple(dict.fromkeys(place for places in found for place in places))
+
+
+def lines_of_event(
+    program: Program, asker: str, event: str, root: Path, amount: float | None = None
+) -> tuple[SourcePlace, ...]:
+    """The lines of a predicate's rules that say how much of a resource an event is of, then those that ask for it.
+
+    Where the `amount` is known, none that says another one.
+    """
+    numbers = dict(numbers_of(program))
     found: list[SourcePlace] = []
-    for asker, event in change.askers:
-        for rule in (one for one in program.rules if one.predicate == asker):
-            lines = _asking(program, rule, (event, _QUANTITY), numbers, amount, None).lines
-            steps = (one for one in all_instructions(rule.body) if isinstance(one, Child))
-            found += [*(one.place for one in lines), *(line_of(one.span) for one in steps if one.predicate == event)]
+    for rule in (one for one in program.rules if one.predicate == asker):
+        lines = _asking(program, rule, (event, _QUANTITY), numbers, amount, None).lines
+        steps = (one for one in all_instructions(rule.body) if isinstance(one, Child))
+        found += [*(one.place for one in lines), *(line_of(one.span) for one in steps if one.predicate == event)]
     return tuple(replace(one, file=relative_name(one.file, root)) for one in dict.fromkeys(found))
 
 

@@ -11,6 +11,7 @@ from checker.waiting import Waiting
 from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.outcome import Abort, ConflictElement, Deadlock, Draw, Event, LevelChange, SourcePlace
 from runtime.plan.readout.names import VariableName
+from runtime.plan.readout.open_levels import LevelUser
 from runtime.plan.readout.statements import Term
 
 
@@ -26,7 +27,7 @@ class StepKind(StrEnum):
     FAULT = "fault"  # the culprit
     BROKEN = "broken"  # the culprit of what broke a plan that was repaired
     TRIED = "tried"  # what the search tried in vain
-    LEVEL = "level"  # a change of the level of a resource
+    LEVEL = "level"  # a change of the level of a resource, or what may change it
     WAITING = "waiting"  # what an open goal waited for
     ABORT = "abort"
 
@@ -36,10 +37,10 @@ class Step:
     """One link of the chain: when (None: always), what, and where that is written.
 
     `subject` is a draw with how it is drawn, the rule of a line, an event, an element of the conflict, a line that asks
-    for one, what was tried or waited for, the change of a level, or the abort (None: the mission went to its end).
-    `limits` are the lines that set what the faulty one compares with, `under` the conditions under which the line of
-    an element stands, `made` where the object is made that it speaks of. `alike` further elements say the same of
-    other tokens. `is_tried`: the planner had ordered tokens so, and gave that up.
+    for one, what was tried or waited for, what changes a level, or the abort (None: the mission went to its end).
+    `limits` are the lines that set what the faulty one compares with, or what another one reads, `under` the conditions
+    under which the line of an element stands, `made` where the object is made that it speaks of. `alike` further
+    elements say the same of other tokens. `is_tried`: the planner had ordered tokens so, and gave that up.
     """
 
     kind: StepKind
@@ -54,6 +55,7 @@ class Step:
         | Deadlock
         | Waiting
         | LevelChange
+        | LevelUser
         | Abort
         | None
     )

@@ -2,6 +2,8 @@
 
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
+from pathlib import Path
 
 from checker.batch.result import MissionResult
 from checker.broken_plans import Breaking, blamed, broken_plan, fails_by_repairs
@@ -25,6 +27,7 @@ from checker.oracle import Judgement, given_up
 from checker.proofs.conflict import Confirmation, confirm, needed_elements
 from checker.proofs.places import ModelText
 from checker.requested import PlannerChoice, left_open, lines_of_amount, lines_that_ask, who_chose
+from checker.resource_lines import with_uses
 from checker.standing import Standing, StandingLines
 from checker.steps import Step, StepKind, without_repeats
 from checker.told_draws import acting_lines, draws_of, in_time, shown_tokens
@@ -129,8 +132,8 @@ def tell(
     steps = [
         *in_time([*redrawn, *draws, *wished], told),
         *_with_askers(_as_tried(_conflict(conflict, confirmation), failed), outcome, text, taken),
-        *_tried(failed),
-        *_kept_open(outcome, agent),
+        *_tried(failed, text),
+        *_kept_open(outcome, agent, text),
         *(Step(StepKind.WAITING, None, one) for one in waited_for(outcome, agent)),
         *(Step(StepKind.WAITING, at, one) for at, one in held_up(result.judgement.broken, broken, outcome, agent)),
         Step(StepKind.ABORT, ended, abort, abort.reason.raised if abort is not None else None),
@@ -365,10 +368,10 @@ def _wished(outcome: Outcome, agent: AgentConfiguration, text: ModelText | None)
             yield from (Step(StepKind.EVENT, one.tick, one) for one in found[:_MOST_LEADING])
 
 
-def _kept_open(outcome: Outcome, agent: AgentConfiguration) -> Iterator[Step]:
+def _kept_open(outcome: Outcome, agent: AgentConfiguration, text: ModelText | None) -> Iterator[Step]:
     """What a goal that stays open for no other reason asked for in vain, with what rules that out."""
     for event in kept_open_by(outcome, agent):
-        yield from _tried(failed_at(event))
+        yield from _tried(failed_at(event), text)
         yield Step(StepKind.EVENT, event.tick, event)
 
 
@@ -380,7 +383,7 @@ def _is_only_resource(element: ConflictElement, conflict: Conflict) -> bool:
     return any(one.kind == "object" and one in named for one in element.variables)
 
 
-def _tried(failed: Failed) -> list[Step]:
+def _tried(failed: Failed, text: ModelText | None) -> list[Step]:
     """What the search tried in vain, and the lines that rule it out and that the conflict does not name."""
     if failed.deadlock is None:
         return []
@@ -388,5 +391,6 @@ def _tried(failed: Failed) -> list[Step]:
     lines = [one for one in lines_that_rule_out(failed) if one.place not in limits][:_MOST_LINES]
     steps = [Step(StepKind.CAUSE, None, element, element.place) for element in lines]
     ends = dict.fromkeys(way[-1] for way in dead_ends(failed.deadlock) if len(way) > 1)
-    told = [Step(StepKind.TRIED, None, one) for one in (failed.deadlock, *list(ends)[:_MOST_ENDS])]
-    return [*steps, *told]
+    known = (text.programs, text.root) if text is not None else ({}, Path())
+    told = [with_uses(one, *known) for one in (failed.deadlock, *list(ends)[:_MOST_ENDS])]
+    return [*steps, *chain.from_iterable(told)]

@@ -1,5 +1,6 @@
 """A token that alone overloads a resource, and missions that lose more than they may: candidates, stories, traces."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -20,9 +21,14 @@ from checker.models import ModelSet, load_models
 from checker.oracle import Verdict
 from checker.pinned import pinned
 from checker.proofs.places import text_of
-from checker.rendering import step_text
+from checker.rendering import beside, step_text
+from checker.steps import StepKind
 from checker.story import tell
 from runtime.executive.outcome import ReasonKind, SourcePlace
+from runtime.plan.readout.open_levels import LevelUser, OpenLevel
+from runtime.solver.learning.attempts import Flaw
+from runtime.solver.learning.rendering import flaw_words
+from runtime.solver.tags import RESOURCE_THREAT
 
 pytestmark = pytest.mark.once
 
@@ -70,9 +76,9 @@ mandatory = true
 MANAGERS = ("ResourceThreatManager", "ThreatManager", "OpenConditionManager", "UnboundVariableManager")
 
 
-def loaded(folder: Path, mission_text: str) -> ModelSet:
+def loaded(folder: Path, mission_text: str, model: str = MODEL) -> ModelSet:
     """The models of a mission, written into a folder."""
-    (folder / "oven.nddl").write_text(MODEL, encoding="utf-8")
+    (folder / "oven.nddl").write_text(model, encoding="utf-8")
     managers = "".join(f'[[manager]]\ncomponent = "{name}"\n' for name in MANAGERS)
     (folder / "cook.toml").write_text(managers, encoding="utf-8")
     (folder / "mission.toml").write_text(mission_text, encoding="utf-8")
@@ -105,6 +111,49 @@ def test_the_story_tells_which_resource_leaves_no_choice(flown: tuple[ModelSet, 
     story = tell(result, models.agent, models.influence, None, text_of(models.agent, models.programs))
     told = [step_text(step, story) for step in story.steps]
     assert any(one.startswith("`bus` might be used too much at ") for one in told)
+
+
+def test_the_story_tells_who_uses_how_much_of_a_resource_and_by_which_lines(tmp_path: Path) -> None:
+    named = MODEL.replace(
+        "Reusable bus = new Reusable(100.0,", "float BUS;\nBUS = 100.0;\nReusable bus = new Reusable(BUS,"
+    )
+    named = named.replace("Reusable bus", "float RING = 70.0;\nReusable bus").replace("== 140.0;", "== 2.0 * RING;")
+    models = loaded(tmp_path, MISSION, named)
+    result = fly_one(pinned(models)(models.agent), Task(1, 1), keep_trace=True)
+    story = tell(result, models.agent, models.influence, None, text_of(models.agent, models.programs))
+    told = [(step_text(step, story), step) for step in story.steps if step.kind in (StepKind.LEVEL, StepKind.TRIED)]
+    (user, use), (over, flaw) = told[-2:]
+    assert user == "Oven.Bake#1 may take up to 140 of `bus`"
+    assert re.fullmatch(
+        r"`bus` might be used too much at \d+, 140 of 100 available: Oven.Bake#1 140; there is nothing to choose", over
+    )
+    assert [place.text for place in (use.place, *use.limits) if place is not None] == [
+        "power.quantity == 2.0 * RING;",
+        "float RING = 70.0;",
+    ]
+    assert [place.text for place in (flaw.place, *flaw.limits) if place is not None] == [
+        "Reusable bus = new Reusable(BUS, 0.0);",
+        "BUS = 100.0;",
+    ]
+    assert [said for said, *_ in beside(use)] == ["with the number of"]
+    assert [said for said, *_ in beside(flaw)] == ["where the limit is set"]
+
+
+@pytest.mark.parametrize(
+    ("is_low", "is_lent", "words"),
+    [
+        (True, True, "`sand` might be used too much at 12, 8 of 6 available: Survey#3 8"),
+        (True, False, "the level of `sand` might fall to -2 at 12, its least is 0: Survey#3 8"),
+        (False, False, "the level of `sand` might rise to -2 at 12, its greatest is 0: Survey#3 8"),
+    ],
+)
+def test_a_level_that_may_get_past_its_limit_is_told_with_how_far_and_by_whom(
+    is_low: bool, is_lent: bool, words: str
+) -> None:
+    level = OpenLevel("sand", 12, is_low, 0.0, -2.0, 6.0, is_lent)
+    users = (LevelUser("sand", "Survey#3", "Flight.Survey", "Reservoir.consume", 8.0, is_low),)
+    assert flaw_words(Flaw(RESOURCE_THREAT, "sand", at=12, level=level, users=users)) == words
+    assert flaw_words(Flaw(RESOURCE_THREAT, "sand", at=12)) == "`sand` might be used too much at 12"
 
 
 def test_the_trace_of_a_mission_that_fails_by_a_limit_is_kept(tmp_path: Path) -> None:

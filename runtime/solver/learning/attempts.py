@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from nddl_lang.text.source import Span
+from runtime.plan.readout.open_levels import LevelUser, OpenLevel
 from runtime.plan.readout.statements import ResourceTerm, Term
 from runtime.plan.tags import NONE
 
@@ -54,13 +55,16 @@ class Resolver:
 class Flaw:
     """What was to be mended: the kind of flaw (NONE: the model itself), the token, variable or resource.
 
-    An open condition has a predicate, too; of a resource, `at` is the instant.
+    An open condition has a predicate, too; of a resource, `at` is the instant, `level` how far it may get past a limit
+    then, by which `users`.
     """
 
     kind: int
     name: str = ""
     predicate: str = ""
     at: int = 0
+    level: OpenLevel | None = None
+    users: tuple[LevelUser, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

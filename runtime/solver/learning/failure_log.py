@@ -15,6 +15,7 @@ from runtime.limits import TIME_LIMIT
 from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import fire, merge
 from runtime.plan.readout.cause_rendering import words
+from runtime.plan.readout.open_levels import level_users, open_level
 from runtime.plan.readout.readout import live_tokens, span_of, token_names
 from runtime.plan.readout.statements import ResourceTerm
 from runtime.plan.readout.terms import TermReader
@@ -138,7 +139,11 @@ class FailureLog:
             return Flaw(kind, reader.token(item))
         if kind == UNBOUND_VARIABLE:
             return Flaw(kind, reader.variable(item))
-        return Flaw(kind, self.database.objects.names[item], at=self.stack.instant[d])
+        at, level = self.stack.instant[d], open_level(self.database, item)
+        if level is None or level.at != at:  # of a resource with a "GroundedProfile", which is judged otherwise
+            return Flaw(kind, self.database.objects.names[item], at=at)
+        users = level_users(self.database, item, at, level.is_low, reader.token)
+        return Flaw(kind, level.resource, at=at, level=level, users=tuple(users))
 
     def _resolver(self, d: int, reader: TermReader) -> Resolver:
         """What decision `d` has chosen, while it is in force."""

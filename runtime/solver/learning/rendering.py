@@ -34,8 +34,24 @@ def flaw_words(flaw: Flaw) -> str:
     if flaw.kind == UNBOUND_VARIABLE:
         return f"`{flaw.name}` has no value yet"
     if flaw.kind == RESOURCE_THREAT:
-        return f"`{flaw.name}` might be used too much at {flaw.at}"
+        return _level_words(flaw)
     return "the model contradicts itself"
+
+
+def _level_words(flaw: Flaw) -> str:
+    """How far a resource may get out of bounds, and by whom: at most so much each."""
+    level = flaw.level
+    if level is None:
+        return f"`{flaw.name}` might be used too much at {flaw.at}"
+    users = ", ".join(f"{user.token} {user.amount:g}" for user in flaw.users)
+    users = f": {users}" if users else ""
+    if level.is_low and level.is_lent:
+        used, room = level.first - level.level, level.first - level.limit
+        return f"`{flaw.name}` might be used too much at {flaw.at}, {used:g} of {room:g} available{users}"
+    way, side = ("fall", "least") if level.is_low else ("rise", "greatest")
+    return (
+        f"the level of `{flaw.name}` might {way} to {level.level:g} at {flaw.at}, its {side} is {level.limit:g}{users}"
+    )
 
 
 def resolver_words(resolver: Resolver) -> str:
