@@ -9,6 +9,7 @@ from typing import assert_never
 
 from checker.conditions.condition import Condition
 from checker.conditions.rendering import literal_text
+from checker.counterfactual.time_spent import LongPart
 from checker.culprit import is_value
 from checker.influence import InfluenceLine
 from checker.limits import Limit
@@ -60,6 +61,7 @@ _ORIGINS = {
     ElementKind.REQUEST: " (as asked for)",
     ElementKind.ORDER: " (by the order of tokens)",
 }
+_READ = {StepKind.LEVEL: "with the number of", StepKind.PART: "by"}  # lines that the line of a step reads
 _TRIED_ORDER = " (by an order of tokens that was tried in vain)"
 _KINDS = {
     ReasonKind.NO_LOOKAHEAD: "its owner does not look ahead",
@@ -164,6 +166,8 @@ def step_text(step: Step, story: Story) -> str:
             return _change_text(change)
         case LevelUser() as user:
             return user_text(user)
+        case LongPart() as part:
+            return _part_text(part)
         case Abort() | None as abort:
             return _end_text(abort, story)
         case _:
@@ -176,6 +180,13 @@ def _change_text(change: LevelChange) -> str:
     who = " and ".join(dict.fromkeys(asker for asker, _ in change.askers)) or "something"
     side = "of" if change.amount < 0 else "to"
     return f"{who} {what} {side} {change.resource}: its level is {number(change.level)}"
+
+
+def _part_text(part: LongPart) -> str:
+    """How much of the time of a token a part of it took."""
+    what = token_text(part.predicate, part.arguments)
+    of = f"{part.total} ticks that {part.whole} lasts since tick {part.begun}"
+    return f"{what} on {part.timeline} takes {part.ticks} of the {of}"
 
 
 def step_label(step: Step, causes: Sequence[SourcePlace]) -> str:
@@ -200,8 +211,10 @@ def beside(step: Step) -> list[tuple[str, SourcePlace, bool]]:
     """The lines that are told beside the one of a step: what each is, where it stands, and whether that is marked."""
     told = [("where the object is made", step.made, False)] if step.made is not None else []
     told += [(_standing_text(one), one.place, False) for one in step.under]
-    said = "with the number of" if step.kind is StepKind.LEVEL else "where the limit is set"
-    return [*told, *((said, limit, step.kind is not StepKind.LEVEL) for limit in step.limits)]
+    asked = step.subject.asked if isinstance(step.subject, LongPart) else ()
+    told += [("as asked for by", one, False) for one in asked]
+    said = _READ.get(step.kind, "where the limit is set")
+    return [*told, *((said, limit, step.kind not in _READ) for limit in step.limits)]
 
 
 def _standing_text(standing: Standing) -> str:

@@ -31,11 +31,10 @@ from compiler.program import (
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.events import events_on, single_events
-from runtime.executive.outcome import ConflictElement, ElementKind, Event, EventKind, LevelChange, SourcePlace
+from runtime.executive.outcome import ConflictElement, ElementKind, Event, EventKind, SourcePlace
 from runtime.plan.readout.names import TokenName, VariableName
 
 _EQUAL = "eq"
-_QUANTITY = "quantity"  # of what is taken from a resource or given to it
 _TELLING = (EventKind.OBSERVATION, EventKind.REQUEST)
 _Wanted = tuple[tuple[str, str], float | str | None]  # predicate and parameter, and its value if that is known
 _MOST = 6  # lines that are told of one argument
@@ -167,30 +166,14 @@ def left_open(
             yield PlannerChoice(asked[-1].reactor, f"{wanted}.{name}", place, is_open=True)
 
 
-def lines_of_amount(change: LevelChange, programs: Mapping[str, Program], root: Path) -> tuple[SourcePlace, ...]:
-    """The lines of a rule by which the level of a resource changes: those that say by how much, then the others."""
-    program = programs.get(change.reactor)
-    if program is None:
-        return ()
-    amount = abs(change.amount)
-    found = (lines_of_event(program, asker, event, root, amount) for asker, event in change.askers)
-    return tuple(dict.fromkeys(place for places in found for place in places))
-
-
-def lines_of_event(
-    program: Program, asker: str, event: str, root: Path, amount: float | None = None
+def lines_of_argument(
+    program: Program, asker: str, wanted: tuple[str, str], root: Path, value: float | None = None
 ) -> tuple[SourcePlace, ...]:
-    """The lines of a predicate's rules that say how much of a resource an event is of, then those that ask for it.
-
-    Where the `amount` is known, none that says another one.
-    """
+    """The lines of a predicate's rules that say what a parameter of what they ask for is."""
     numbers = dict(numbers_of(program))
-    found: list[SourcePlace] = []
-    for rule in (one for one in program.rules if one.predicate == asker):
-        lines = _asking(program, rule, (event, _QUANTITY), numbers, amount, None).lines
-        steps = (one for one in all_instructions(rule.body) if isinstance(one, Child))
-        found += [*(one.place for one in lines), *(line_of(one.span) for one in steps if one.predicate == event)]
-    return tuple(replace(one, file=relative_name(one.file, root)) for one in dict.fromkeys(found))
+    rules = [rule for rule in program.rules if rule.predicate == asker]
+    lines = (line for rule in rules for line in _asking(program, rule, wanted, numbers, value, None).lines)
+    return tuple(dict.fromkeys(replace(one.place, file=relative_name(one.place.file, root)) for one in lines))
 
 
 def _unsaid(program: Program, predicate: str, name: str) -> Iterator[Span]:

@@ -10,16 +10,17 @@ from pathlib import Path
 
 from checker.influence import line_of
 from checker.names import relative_name
-from checker.requested import lines_of_event
+from checker.requested import lines_of_argument
 from checker.single_values import numbers_of
 from checker.steps import Step, StepKind
 from compiler.instructions import all_instructions
-from compiler.program import Assign, GlobalVariable, NewGlobal, NewObject, Operand, Post, Program
+from compiler.program import Assign, Child, GlobalVariable, NewGlobal, NewObject, Operand, Post, Program
 from nddl_lang.text.source import Span
-from runtime.executive.outcome import Deadlock, SourcePlace
+from runtime.executive.outcome import Deadlock, LevelChange, SourcePlace
 from runtime.plan.readout.open_levels import LevelUser
 
 _MOST_USERS = 4
+_QUANTITY = "quantity"  # of what is taken from a resource or given to it
 
 
 def with_uses(deadlock: Deadlock, programs: Mapping[str, Program], root: Path) -> Iterator[Step]:
@@ -31,13 +32,39 @@ def with_uses(deadlock: Deadlock, programs: Mapping[str, Program], root: Path) -
         return
     (program, *_) = owners
     for user in flaw.users[:_MOST_USERS]:
-        places = lines_of_event(program, user.rule, user.event, root)
+        places = _lines_of_event(program, user.rule, user.event, root)
         place = next(iter(places), None)
         yield Step(StepKind.LEVEL, None, user, place, tuple(_numbers_at(program, place, root)))
     made = next(one for one in _made(program) if one.name == flaw.name)
     read = [one for one in made.arguments if not isinstance(one, NewObject)]
     limits = tuple(dict.fromkeys(_placed(span, root) for span in _setting(program, read)))
     yield Step(StepKind.TRIED, None, deadlock, _placed(made.span, root), limits)
+
+
+def lines_of_amount(change: LevelChange, programs: Mapping[str, Program], root: Path) -> tuple[SourcePlace, ...]:
+    """The lines of a rule by which the level of a resource changes: those that say by how much, then the others."""
+    program = programs.get(change.reactor)
+    if program is None:
+        return ()
+    amount = abs(change.amount)
+    found = (_lines_of_event(program, asker, event, root, amount) for asker, event in change.askers)
+    return tuple(dict.fromkeys(place for places in found for place in places))
+
+
+def _lines_of_event(
+    program: Program, asker: str, event: str, root: Path, amount: float | None = None
+) -> tuple[SourcePlace, ...]:
+    """The lines of a predicate's rules that say how much of a resource an event is of, then those that ask for it.
+
+    Where the `amount` is known, none that says another one.
+    """
+    rules = (rule for rule in program.rules if rule.predicate == asker)
+    steps = (step for rule in rules for step in all_instructions(rule.body) if isinstance(step, Child))
+    asking = [
+        replace(one, file=relative_name(one.file, root))
+        for one in (line_of(step.span) for step in steps if step.predicate == event)
+    ]
+    return tuple(dict.fromkeys((*lines_of_argument(program, asker, (event, _QUANTITY), root, amount), *asking)))
 
 
 def _made(program: Program) -> Iterator[NewObject]:

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
+from checker.counterfactual.time_spent import LongPart
 from checker.influence import InfluenceLine
 from checker.requested import PlannerChoice
 from checker.standing import Standing
@@ -29,6 +30,7 @@ class StepKind(StrEnum):
     TRIED = "tried"  # what the search tried in vain
     LEVEL = "level"  # a change of the level of a resource, or what may change it
     WAITING = "waiting"  # what an open goal waited for
+    PART = "part"  # of a token that lasted too long
     ABORT = "abort"
 
 
@@ -56,6 +58,7 @@ class Step:
         | Waiting
         | LevelChange
         | LevelUser
+        | LongPart
         | Abort
         | None
     )

@@ -23,11 +23,12 @@ from checker.counterfactual.promises import first_violated, of_first_violated
 from checker.culprit import culprit_of, in_telling_order, is_unbounded
 from checker.findings import Fault
 from checker.influence import Branch, Influence, parameters_that_choose
+from checker.long_parts import with_parts
 from checker.oracle import Judgement, given_up
 from checker.proofs.conflict import Confirmation, confirm, needed_elements
 from checker.proofs.places import ModelText
-from checker.requested import PlannerChoice, left_open, lines_of_amount, lines_that_ask, who_chose
-from checker.resource_lines import with_uses
+from checker.requested import PlannerChoice, left_open, lines_that_ask, who_chose
+from checker.resource_lines import lines_of_amount, with_uses
 from checker.standing import Standing, StandingLines
 from checker.steps import Step, StepKind, without_repeats
 from checker.told_draws import acting_lines, draws_of, in_time, shown_tokens
@@ -129,9 +130,10 @@ def tell(
     way = sorted([*way, *dead, *promised_events(result, outcome, agent)], key=lambda event: event.tick)
     wished = [[one] for one in _wished(outcome, agent, text)] if result.judgement.broken is not None else []
     told = in_time(changes, _events(way, broken, outcome, agent, text, taken), is_behind=True)
+    of_conflict = _as_tried(_conflict(conflict, confirmation), failed)
     steps = [
         *in_time([*redrawn, *draws, *wished], told),
-        *_with_askers(_as_tried(_conflict(conflict, confirmation), failed), outcome, text, taken),
+        *with_parts(_with_askers(of_conflict, outcome, text, taken), outcome, text, taken),
         *_tried(failed, text),
         *_kept_open(outcome, agent, text),
         *(Step(StepKind.WAITING, None, one) for one in waited_for(outcome, agent)),

@@ -5,13 +5,36 @@ done before counts: what took twice the time is twice as likely to be what took 
 than it may, so does what was done since it began.
 """
 
+from collections.abc import Container
+from dataclasses import dataclass
+
 from checker.causes import failed_by
 from checker.culprit import culprit_of
 from compiler.program import TOKEN_TIMES
-from runtime.executive.events import heads_of, single_events
-from runtime.executive.outcome import ElementKind, EventKind, Outcome
+from runtime.executive.events import events_on, heads_of, single_events
+from runtime.executive.messages import Arguments
+from runtime.executive.outcome import ElementKind, Event, EventKind, Outcome, SourcePlace
 
 _MOMENTS = TOKEN_TIMES[:2]
+_LEAST = 0.25  # of the time of a token that is a large part
+
+
+@dataclass(frozen=True, slots=True)
+class LongPart:
+    """What a timeline held from a tick on for so many of the ticks of a token, `whole`, which lasted for `total`.
+
+    `asked` are the lines by which the rule of the whole asks for what that hangs on.
+    """
+
+    timeline: str
+    predicate: str
+    arguments: Arguments
+    since: int
+    ticks: int
+    whole: str
+    begun: int
+    total: int
+    asked: tuple[SourcePlace, ...] = ()
 
 
 def time_spent(outcome: Outcome) -> dict[str, float]:
@@ -22,6 +45,33 @@ def time_spent(outcome: Outcome) -> dict[str, float]:
     if not _is_late_by_clock(outcome) or outcome.last_tick < 1:
         return {}
     return _shares(outcome, 0)
+
+
+def parts_of_limited(outcome: Outcome, children: Container[str]) -> list[LongPart]:
+    """The parts of the token that `limited_token` names, of some predicates, that took a quarter of its time.
+
+    Those are left out of which the conflict tells how long they last.
+    """
+    whole = limited_token(outcome)
+    begun = [tick for _, tick, _, name in heads_of(outcome.events) if name == whole.rpartition(".")[2]]
+    total = outcome.last_tick - begun[-1] if begun else 0
+    asked = {(one.timeline, one.predicate) for one in single_events(outcome.events) if one.kind is EventKind.REQUEST}
+    conflict = failed_by(outcome).conflict
+    variables = conflict.variables if conflict is not None else ()
+    told = {one.token.predicate.rpartition(".")[2] for one in variables if one.token and one.name == TOKEN_TIMES[2]}
+    seen = [one for one in events_on(outcome.events, {timeline for timeline, _ in asked}) if _is_seen(one)]
+    found: list[LongPart] = []
+    for number, one in enumerate(seen if total else ()):
+        later = (other.tick for other in seen[number + 1 :] if other.timeline == one.timeline)
+        ticks = next(later, outcome.last_tick) - one.tick
+        is_part = one.predicate in children and (one.timeline, one.predicate) in asked and one.predicate not in told
+        if is_part and one.tick >= begun[-1] and ticks >= _LEAST * total:
+            found.append(LongPart(one.timeline, one.predicate, one.arguments, one.tick, ticks, whole, begun[-1], total))
+    return found
+
+
+def _is_seen(event: Event) -> bool:
+    return event.kind is EventKind.OBSERVATION
 
 
 def time_inside(outcome: Outcome) -> dict[str, float]:

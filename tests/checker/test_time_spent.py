@@ -5,10 +5,14 @@ from pathlib import Path
 
 import pytest
 
+from checker.buckets import group_failures
 from checker.counterfactual.candidates import candidates_of
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.search import sites_in
-from checker.counterfactual.time_spent import limited_token, time_inside, time_spent
+from checker.counterfactual.time_spent import LongPart, limited_token, time_inside, time_spent
+from checker.findings import Fault
+from checker.rendering import beside
+from checker.steps import Step, StepKind
 from runtime.executive.outcome import Outcome
 from tests.checker.checked import faults_of
 from tests.checker.fault_study import faults_in, laid_out
@@ -69,6 +73,30 @@ def test_what_a_part_of_a_limited_token_took_leads_to_the_line_that_asked_for_so
     assert far["duration == ceil(time);"] == pytest.approx(-math.log(share))
     assert far["duration == ceil(time);"] < far["rate == lift * ballast;"] < far["film != none;"]
     assert far["climb.ballast == sand_for(frames);"] < -math.log(share) + 1.0
+
+    (bucket,) = group_failures((result,))
+    told = campaign.story(result, Fault(bucket, None, None)).steps
+    (climb, shoot) = (number for number, step in enumerate(told) if step.kind is StepKind.PART)
+    assert told[shoot + 1].kind is StepKind.FAULT
+    assert element_of(told[climb]) == (200, "Climbs", 63, "Flight.Survey", 200, 150)
+    assert texts_of(told[climb]) == [
+        "duration == ceil(time);",
+        "mulEq(rate, time, metres);",
+        "rate == lift * ballast;",
+    ]
+    assert texts_of(told[shoot]) == ["duration == ceil(frames * each * dusk);"]  # its films differ, so do their times
+    asked = [place.text for said, place, _ in beside(told[climb]) if said == "as asked for by"]
+    assert asked == ["climb.metres == metres;", "climb.ballast == sand_for(frames);"]  # not what it hands on
+
+
+def element_of(step: Step) -> tuple[object, ...]:
+    part = step.subject
+    assert isinstance(part, LongPart)
+    return step.tick, part.predicate, part.ticks, part.whole, part.begun, part.total
+
+
+def texts_of(step: Step) -> list[str]:
+    return [place.text for place in (step.place, *step.limits) if place is not None]
 
 
 def test_the_line_that_made_a_deadline_late_hours_ago_is_the_first_cause(
