@@ -54,6 +54,12 @@ RESOURCES_FIRST = Code(
     "NDDL739", Severity.INFO, "rule", "uses of resources are ordered before {what}: such a search may have no end"
 )
 BEYOND_MODEL = Code("NDDL740", Severity.WARNING, "domain", "`{name}` is drawn {reason}")
+OTHER_NUMBER = Code(
+    "NDDL741",
+    Severity.WARNING,
+    "domain",
+    "`{timeline}` is made with {mine} here, and by its owner `{owner}` with {theirs}",
+)
 NO_REQUESTS = Code(
     "NDDL734", Severity.WARNING, "rule", "`{timeline}` takes no requests: its owner `{owner}` has a lookahead of 0"
 )

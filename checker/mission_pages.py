@@ -25,6 +25,7 @@ from checker.codes import (
     NO_THREATS,
     NO_TIMELINE,
     NOT_TOML,
+    OTHER_NUMBER,
     OTHER_ROLE,
     OUT_OF_RANGE,
     OUT_OF_TIME,
@@ -165,6 +166,16 @@ MISSION_PAGES = (
         "The file's range stands in place of the model's, so rules read values that the model says there are none of.",
         "[parameters.GPS_HIT_RATE]\nrange = [0.1, 40.0]  # float GPS_HIT_RATE = [0.1 4.0];\n",
         "[parameters.GPS_HIT_RATE]\nrange = [0.1, 4.0]  # float GPS_HIT_RATE = [0.1 4.0];\n",
+        "toml",
+    ),
+    RulePage(
+        OTHER_NUMBER,
+        "Two models of a mission make one timeline with other numbers.",
+        "Who asks for something plans with other lengths or limits than who does it.",
+        '[[reactor]]\nname = "flyman"\nmodel = "flyman.nddl"  # new Batten(External, sea, 10.0, 90.0)\n'
+        '[[reactor]]\nname = "house"\nmodel = "house.nddl"  # new Batten(Internal, sea, 100.0, 90.0)\n',
+        '[[reactor]]\nname = "flyman"\nmodel = "flyman.nddl"  # new Batten(External, sea, 10.0, 90.0)\n'
+        '[[reactor]]\nname = "house"\nmodel = "house.nddl"  # new Batten(Internal, sea, 10.0, 90.0)\n',
         "toml",
     ),
     RulePage(

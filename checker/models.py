@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
 
-from checker.codes import OUT_OF_TIME
+from checker.codes import OTHER_NUMBER, OUT_OF_TIME
 from checker.figures import figure_misfits
 from checker.goal_fit import goals_out_of_time
 from checker.influence import Influence, lines_of_influence
@@ -19,6 +19,7 @@ from checker.names import relative_name
 from checker.planner_fit import unordered_resources
 from checker.property_fit import property_misfits
 from checker.role_fit import find_role_misfits
+from checker.shared_timelines import shared_misfits
 from checker.solver_fit import solver_misfits
 from compiler.lower import compile_model
 from compiler.program import ParameterSite, Program
@@ -123,6 +124,7 @@ def load_models(mission: Mission, open_text: OpenText = read_text, *, is_linted:
     sites = _sites(programs)
     misfits = [*find_misfits(mission, programs), *sampling_misfits(mission, sites)]
     misfits += find_role_misfits(mission, programs, library.constraints)
+    misfits += shared_misfits(mission, programs)
     settings = {name: reading for name, (reading, _) in zip(solvers, readings, strict=True)}
     misfits += unordered_resources(mission, programs, settings)
     misfits += solver_misfits(mission, programs, zip(solvers, configured, strict=True))
@@ -148,7 +150,7 @@ def _opened(path: Path, open_text: OpenText) -> Source:
 
 
 _Place = tuple[str, int, str, str]
-_WARNED = frozenset((OUT_OF_TIME, UNCLOSED))
+_WARNED = frozenset((OUT_OF_TIME, UNCLOSED, OTHER_NUMBER))
 
 
 def _place_of(one: Diagnostic) -> _Place:

@@ -35,6 +35,7 @@ from checker.mutation.edits import EditSite, SmallEdit, sites_of
 from checker.mutation.kinds import OUTSIDE
 from checker.mutation.labels import labels_of
 from checker.mutation.mission_edits import agent_with
+from checker.mutation.shared_objects import with_shared
 from checker.mutation.successors import with_successors
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
 from checker.oracle import Verdict, given_up, judge_losses
@@ -112,7 +113,9 @@ def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]
     for model in dict.fromkeys(each.model for each in agent.reactors):
         for site in sites_of(load_graph(root / model, overlay)):
             found.setdefault((site.file, site.first, site.text), site)
-    sites = with_arguments(list(found.values()), [read_text(root / name) or "" for name in agent.constraints])
+    sites = with_arguments(
+        with_shared(list(found.values())), [read_text(root / name) or "" for name in agent.constraints]
+    )
     return with_successors(with_durations(with_additions(sites, labels_of(agent.goals, sites))))
 
 

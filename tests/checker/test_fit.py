@@ -183,6 +183,27 @@ def test_a_parameter_that_is_drawn_beyond_what_the_model_says_is_told(
     assert told == ([("NDDL740", f"`LEGS` is drawn {drawn}, and the model says 0 to 9")] if drawn else [])
 
 
+@pytest.mark.parametrize(
+    ("used", "owned", "told"),
+    [
+        ("5.0", "5.0", ""),
+        ("5.0", "50.0", "`other` is made with 5 here, and by its owner `second` with 50"),
+        ("REACH", "5.0", ""),
+        ("REACH", "7", "`other` is made with 5 here, and by its owner `second` with 7"),
+    ],
+)
+def test_a_timeline_that_two_models_make_with_other_numbers_is_told(
+    used: str, owned: str, told: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name, reach in (("driver", used), ("second", owned)):
+        model = folder / f"{name}.nddl"
+        text = model.read_text().replace("Drive(Mode m) {", "float reach; Drive(Mode m, float r) { reach = r;")
+        text = text.replace('reach = r; super(m, "Idle");', 'super(m, "Idle"); reach = r;')
+        model.write_text(text.replace("al);\n", f"al, {reach});\n").replace("int LEGS", "float REACH = 5.0;\nint LEGS"))
+    complaints = [(code, message) for code, _, message, _ in found(MISSION, capsys)]
+    assert complaints == ([("NDDL741", told)] if told else [])
+
+
 def test_a_parameter_of_a_joint_table_that_nobody_samples_is_named_in_it(capsys: pytest.CaptureFixture[str]) -> None:
     text = MISSION + '[joint.AIR]\nparameters = ["LEGS", "HEAT"]\nrows = [[1, 2], [3, 4]]\n'
     ((code, line, message, _),) = found(text, capsys)
