@@ -15,6 +15,7 @@ from checker.mutation.edits import EditSite, SmallEdit
 
 _TOKEN = re.compile(r"[A-Za-z_][\w.]*|\d[\w.]*|[-+*/()]|[^\s\w]")
 _CALL = re.compile(r"\s*(\w+)\s*\((.*)\)\s*;", re.DOTALL)
+_QUOTIENT = re.compile(r"/\s*[\w.]+$")
 _ROUNDING = ("ceil", "floor", "round")
 _OPERATORS = "+-*/"
 _SUM, _ROUND, _NUMBER, _CONSTANT, _NAME, _SCALE = "sum", "rounded", "number", "constant", "name", "scale"
@@ -119,6 +120,11 @@ class Formulas:
         if word in (_ROUND, _SUM):
             return _ROUND if word == _ROUND else _NAME
         return _NUMBER if word[0].isdigit() else _CONSTANT if word in self._constants else _NAME
+
+
+def divides_again(edit: SmallEdit) -> bool:
+    """Whether an edit divides a quotient once more: `metres / pace / litres`."""
+    return _QUOTIENT.search(edit.old) is not None and edit.new.startswith(f"{edit.old} /")
 
 
 def _sets_scale(text: str) -> bool:

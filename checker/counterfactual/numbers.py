@@ -6,8 +6,10 @@ from dataclasses import replace
 
 from checker.mutation.edits import EditSite, SmallEdit
 from checker.mutation.kinds import NUMBERS, EditKind
+from checker.named_objects import RESOURCES
 
 _COMPUTED = re.compile(r"\s*[A-Za-z_][\w.]*\s*==.*[A-Za-z_)].*;", re.DOTALL)
+_MADE = re.compile(r"\bnew\s+(\w+)\s*\(")
 _TWICE = 2.0  # octaves
 
 
@@ -44,6 +46,12 @@ def is_whole(edit: SmallEdit, site: EditSite) -> bool:
 def is_of_formula(edit: SmallEdit, site: EditSite) -> bool:
     """Whether a number without a name is a part of what a line computes by `==`."""
     return not site.named and _COMPUTED.match(site.text) is not None
+
+
+def is_of_object(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether an object is made of a number, but for how much a resource has: a place, a size, a window."""
+    made = _MADE.search(site.text[: edit.begin - site.begin])
+    return made is not None and made.group(1) not in RESOURCES
 
 
 def is_farthest(edit: SmallEdit, site: EditSite) -> bool:

@@ -24,6 +24,8 @@ from checker.mutation.labels import Label
 
 _LABEL = re.compile(r"\s+(\w+)\s*\)")
 _MESSAGE = re.compile(r"(.*):\s*\"([^\"]*)\"\s*;\s*", re.DOTALL)
+_OBJECT = re.compile(r"\s*[A-Z]\w*\s+(\w+)\s*;")
+_EQUAL = re.compile(r"\s*([\w.]+)\s*==\s*([\w.]+)\s*;")
 _MADE = re.compile(r"\bnew\s+\w+\s*\(([^()]*)\)")
 _WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
 _NAMED = 2.0  # odds of the comparison that a constant's name asks for
@@ -70,12 +72,14 @@ class Usage:
     distinct: Distinct
     dimensions: Dimensions
     made: Container[str] = ()  # the numbers and names that objects are made of
+    chosen: Container[str] = ()  # the parameters that lines hold equal to a member of an object
     messages: Mapping[str, Container[float]] = field(default_factory=dict)  # numbers, by constants of the same line
     passing: float = 0.0
 
-    def is_of_object(self, edit: SmallEdit) -> bool:
-        """Whether objects are made of what an edit writes, and none of what stood there."""
-        return edit.new.strip('"') in self.made and edit.old.strip('"') not in self.made
+    def is_of_object(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether objects are made of what an edit writes, and none of what stood there, and lines hold these equal."""
+        is_made = edit.new.strip('"') in self.made and edit.old.strip('"') not in self.made
+        return is_made and site.text.partition("=")[0].strip() in self.chosen
 
     def is_stated(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether a comment, or what a line that reads a constant says where it fails, names the number as it is."""
@@ -108,8 +112,11 @@ class Usage:
     def is_wanted(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether an edit adds a variable of the rule, a slack, or what bears the name of what the line is about."""
         name = WORD.findall(edit.new)[-1]
-        is_limit = self.affinity.is_slack(name, edit, site)
-        return name not in self.named or is_limit or self.affinity.is_about(name, site)
+        return name not in self.named or self.is_slack(edit, site) or self.affinity.is_about(name, site)
+
+    def is_slack(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether an edit adds a slack to a limit: `+ GAP_MAX`."""
+        return self.affinity.is_slack(WORD.findall(edit.new)[-1], edit, site)
 
     def gain(self, edit: SmallEdit, site: EditSite) -> float:
         """How much better the new constant of a line belongs there than the old one."""
@@ -232,6 +239,24 @@ def usage_of(
         *lines,
         dimensions,
         made,
+        _chosen_by(sites),
         messages,
         passing,
     )
+
+
+def _chosen_by(sites: Sequence[EditSite]) -> set[str]:
+    """The names that lines hold equal to a member of an object that a rule chooses, and those equal to these."""
+    objects = {(one.file, one.scope, found.group(1)) for one in sites if (found := _OBJECT.fullmatch(one.text))}
+    pairs: list[tuple[str, str]] = []
+    chosen: set[str] = set()
+    for site in sites:
+        if (sides := _EQUAL.fullmatch(site.text)) is None:
+            continue
+        names = [side.rpartition(".")[2] for side in sides.groups()]
+        pairs += [(names[0], names[1]), (names[1], names[0])]
+        if any((site.file, site.scope, side.partition(".")[0]) in objects for side in sides.groups()):
+            chosen |= set(names)
+    while fresh := {other for one, other in pairs if one in chosen} - chosen:
+        chosen |= fresh
+    return chosen

@@ -43,11 +43,11 @@ def said_before(body: Iterable[Any]) -> Iterator[Span]:
 
 
 def copied_names(body: Iterable[Any]) -> Iterator[tuple[Span, str]]:
-    """Each name that is set twice with one that would be set then and is not."""
+    """Each name that is set before with one that would be set then and is not: people copy downwards."""
     settings, labels = list(_settings(body, ())), set(_labels(body))
     for one in settings:
         with_it = [other for other in settings if other is not one and one.goes_with(other)]
-        if all(other.name != one.name for other in with_it):
+        if all(other.name != one.name or other.span.begin > one.span.begin for other in with_it):
             continue
         label, _, parameter = one.name.partition(".")
         said = {other.name for other in with_it}
