@@ -27,21 +27,37 @@ _DEEPEST = 64  # classes above each other
 def declared_roles(model: Path) -> dict[str, tuple[str, ...]]:
     """What a mission file would list of a model: `internal`, `external`, `observe`; empty where it cannot be read."""
     found: dict[str, list[str]] = {"internal": [], "external": [], "observe": []}
+    modes = _declared(model)
+    if modes is None:
+        return {}
+    for name, mode in modes:
+        for key in _KEYS.get(mode, ()):
+            found[key].append(name)
+    return {key: tuple(names) for key, names in found.items()}
+
+
+def declared_objects(model: Path) -> dict[str, str]:
+    """The objects of a model, each with its mode, which is empty where the text does not tell it."""
+    return dict(_declared(model) or ())
+
+
+def _declared(model: Path) -> list[tuple[str, str]] | None:
+    """The objects that the script makes, each with its mode; None where the model cannot be read."""
     try:
         module = read_model(model).module
     except (OSError, ValueError):
-        return {}  # told where the model is read
+        return None  # told where the model is read
     classes = {
         one.name.name: one for one in module.statements if isinstance(one, ClassDecl) and one.members is not None
     }
-    for statement in module.statements:
-        if isinstance(statement, VariableDecl):
-            for one in statement.declarators:
-                if isinstance(one.initialiser, NewExpr):
-                    for name, mode in _made(one.name.name, _words(one.initialiser, {}), classes):
-                        for key in _KEYS.get(mode, ()):
-                            found[key].append(name)
-    return {key: tuple(names) for key, names in found.items()}
+    return [
+        each
+        for statement in module.statements
+        if isinstance(statement, VariableDecl)
+        for one in statement.declarators
+        if isinstance(one.initialiser, NewExpr)
+        for each in _made(one.name.name, _words(one.initialiser, {}), classes)
+    ]
 
 
 _Words = tuple[str, tuple[str, ...]]  # a class, and the names given to its constructor

@@ -53,7 +53,8 @@ def read_figures(table: Table, owned: tuple[str, ...]) -> Figures | None:
             close = nearest(timeline, owned)
             advice = f"did you mean `{close}`?" if close else "owned timelines: " + ", ".join(owned)
             span = table.text.value_span((*table.path, key))
-            table.text.diagnostics.append(respelt(NO_OWNER.at(span, timeline=timeline, help=advice), timeline, owned))
+            complaint = NO_OWNER.at(span, timeline=timeline, help=advice)
+            table.text.unowned.append((timeline, respelt(complaint, timeline, owned)))
     table.close()
     return found
 

@@ -24,6 +24,7 @@ from checker.parameter_tables import read_parameters
 from checker.property_tables import read_properties
 from checker.reactor_tables import read_reactors, suggest_owned
 from checker.respelt import respelt, rewritten
+from checker.unowned import tell_unowned
 from nddl_lang.mission_suffixes import AGENT_SUFFIXES
 from nddl_lang.syntax.codes import UNDECODABLE
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
@@ -129,6 +130,7 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
         agent, check = _with_batch(agent, check, file, root, top)
     head.close()
     top.close()
+    tell_unowned(text, reactors, root)
     if head.values.get("final_tick") == agent.final_tick:
         text.diagnostics += goals_out_of_time(agent, text)
     found = text.found()
@@ -223,7 +225,8 @@ def _read_goals(
         elif owner is not None and owner.lookahead == 0:
             text.diagnostics.append(NO_GOALS.at(span, timeline=goal.timeline, reactor=owner.name))
     for timeline, spans in missing.items():
-        text.diagnostics.append(_without_owner(text, timeline, spans, [*owners], {one.timeline for one in goals}))
+        complaint = _without_owner(text, timeline, spans, [*owners], {one.timeline for one in goals})
+        text.unowned.append((timeline, complaint))
     return tuple(goals)
 
 

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 from checker.codes import (
     MISSING_KEY,
-    NO_OWNER,
     OUT_OF_RANGE,
     REVERSED,
     UNKNOWN_CHOICE,
@@ -39,13 +38,13 @@ class MissionText:
         self.places = places
         self.elsewhere: dict[Path, Span] = {}  # what stands in another file, such as a batch file in XML
         self.diagnostics: list[Diagnostic] = []
+        self.unowned: list[tuple[str, Diagnostic]] = []  # timelines that somebody names and nobody owns
         self.may_declare = False  # a key that is unknown may have been meant to say who owns a timeline
         self._anchor = Anchor(source)
 
     def found(self) -> tuple[Diagnostic, ...]:
-        """What is wrong, in order; of timelines without an owner nothing where an unknown key may have named it."""
-        kept = [each for each in self.diagnostics if each.code is not NO_OWNER or not self.may_declare]
-        return tuple(sorted(kept, key=lambda diagnostic: diagnostic.span.begin))
+        """What is wrong, in order."""
+        return tuple(sorted(self.diagnostics, key=lambda diagnostic: diagnostic.span.begin))
 
     def span(self, begin: int, end: int) -> Span:
         """The stretch between two offsets."""

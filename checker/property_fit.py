@@ -84,6 +84,8 @@ def _pattern_misfits(
         return
     objects = named_objects(program)
     class_name = objects.get(pattern.timeline)
+    if class_name is None:
+        return  # told at its owner
     own = [one for one in program.predicates if one.class_name == class_name]
     known = {one.name.rpartition(".")[2]: one for one in own}
     if pattern.predicate and pattern.predicate not in known:

@@ -59,7 +59,8 @@ def _read_pattern(table: Table, owned: tuple[str, ...]) -> TokenPattern:
         close = nearest(timeline, owned)
         advice = f"did you mean `{close}`?" if close else "owned timelines: " + ", ".join(owned)
         span = table.text.value_span((*table.path, "timeline"))
-        table.text.diagnostics.append(respelt(NO_OWNER.at(span, timeline=timeline, help=advice), timeline, owned))
+        complaint = NO_OWNER.at(span, timeline=timeline, help=advice)
+        table.text.unowned.append((timeline, respelt(complaint, timeline, owned)))
     given = table.table("parameters", "[property.parameters]")
     where = table.string("where", "")
     if where:

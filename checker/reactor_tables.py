@@ -105,7 +105,7 @@ def read_reactors(
             if timeline not in owners and are_told:
                 span = table.text.value_span((*table.path, "external", index))
                 complaint = NO_OWNER.at(span, timeline=timeline, help=suggest_owned(timeline, [*owners]))
-                table.text.diagnostics.append(respelt(complaint, timeline, owners))
+                table.text.unowned.append((timeline, respelt(complaint, timeline, owners)))
             elif timeline in reactor.internal and timeline not in twins:
                 span = table.text.value_span((*table.path, "external", index))
                 help_ = f"`{reactor.name}` owns it: remove it from `internal` or from `external`"

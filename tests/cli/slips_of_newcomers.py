@@ -160,4 +160,6 @@ SLIPS_OF_NEWCOMERS = (
         "write `close();` after the last object is made",
         "new Pad(External)",
     ),
+    Mistake(CABLE, '"gimbal", "wind"]', '"gimball", "wind"]', "did you mean `gimbal`"),
+    Mistake(CABLE, ', "gimbal", "wind"]', ', "wind"]', "list it under `internal` of"),
 )
