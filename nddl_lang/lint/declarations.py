@@ -16,7 +16,6 @@ from nddl_lang.lint.codes import (
     UNUSED_VALUE,
 )
 from nddl_lang.lint.part import Part
-from nddl_lang.lint.removal import removal, undeclare
 from nddl_lang.lint.whole import Whole
 from nddl_lang.semantics.schema import Kind, Predicate, Variable
 from nddl_lang.syntax.nodes import (
@@ -27,6 +26,7 @@ from nddl_lang.syntax.nodes import (
     TypedefDecl,
     VariableDecl,
 )
+from nddl_lang.syntax.removal import removal, undeclare
 from nddl_lang.text.diagnostic import Diagnostic, Fix
 
 AGENT_TIMELINE = "AgentTimeline"

@@ -14,7 +14,6 @@ from nddl_lang.lint.codes import (
 )
 from nddl_lang.lint.part import Facts, Finding, Part, mentioned_labels
 from nddl_lang.lint.reading import domain_of
-from nddl_lang.lint.removal import undeclare
 from nddl_lang.semantics.schema import (
     GlobalReference,
     Kind,
@@ -39,6 +38,7 @@ from nddl_lang.syntax.nodes import (
     RuleDecl,
     VariableDecl,
 )
+from nddl_lang.syntax.removal import undeclare
 from nddl_lang.text.diagnostic import Code, Diagnostic, Edit, Fix, Note
 from nddl_lang.text.source import Span
 

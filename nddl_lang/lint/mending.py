@@ -62,7 +62,7 @@ def _disjoint(
     taken: list[tuple[int, int]] = []
     for diagnostic in found:
         for fix in diagnostic.fixes:
-            if not (fix.safe or unsafe) or _name(diagnostic, fix) in refused:
+            if fix.is_choice or not (fix.safe or unsafe) or _name(diagnostic, fix) in refused:
                 continue
             if any(edit.span.source.text is not text and edit.span.source.text != text for edit in fix.edits):
                 continue

@@ -12,7 +12,7 @@ from itertools import chain
 
 from nddl_lang.analysis import Analysis
 from nddl_lang.lint.codes import NO_SUCH_CODE, UNUSED_SUPPRESSION
-from nddl_lang.lint.removal import removal
+from nddl_lang.syntax.removal import removal
 from nddl_lang.text.diagnostic import Diagnostic, Fix, Severity
 from nddl_lang.text.source import Source, Span
 

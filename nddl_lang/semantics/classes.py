@@ -9,6 +9,7 @@ from nddl_lang.semantics.codes import (
     OWN_BASE,
 )
 from nddl_lang.semantics.constructors import check_constructor, declare_constructors
+from nddl_lang.semantics.declared_twice import without_second
 from nddl_lang.semantics.natives import ROOT_CLASS
 from nddl_lang.semantics.predicates import check_predicate
 from nddl_lang.semantics.schema import Class, Predicate, Variable
@@ -131,7 +132,7 @@ def _check_variables(context: Context, owner: Class, node: VariableDecl) -> None
         if first is not None:
             notes = (Note("the first one is here", first.span),) if first.span is not None else ()
             complaint = DUPLICATE_MEMBER.at(declarator.name.span, notes=notes, owner=owner.name, name=name)
-            context.complain(complaint)
+            context.complain(without_second(complaint, node, declarator))
         elif type_ is None:
             context.symbols.put_partial(owner.name)
             context.symbols.put_faulty(name)
@@ -140,16 +141,18 @@ def _check_variables(context: Context, owner: Class, node: VariableDecl) -> None
             owner.members[name] = variable
             context.tables.declared[declarator.name] = variable
             context.tables.locals[declarator] = variable
-            _check_initialiser(context, owner, declarator, variable)
+            _check_initialiser(context, owner, declarator, variable, node)
 
 
-def _check_initialiser(context: Context, owner: Class, declarator: Declarator, variable: Variable) -> None:
+def _check_initialiser(
+    context: Context, owner: Class, declarator: Declarator, variable: Variable, node: VariableDecl
+) -> None:
     value = declarator.initialiser
     if value is None:
         return
     scope = Scope(BlockKind.CONSTRUCTOR, owner.name)
     is_unknown = isinstance(value, NewExpr) and context.symbols.find_class(value.class_name.name) is None
-    if not is_unknown and check_value(context, scope, value, variable.type, variable.name) is None:
+    if not is_unknown and check_value(context, scope, value, variable.type, variable.name, node) is None:
         return
     if constant(context, value) is None:
         context.complain(MEMBER_VALUE.at(value.span, help="assign it in the constructor", text=value.span.text))

@@ -4,6 +4,7 @@ from nddl_lang.semantics import domains
 from nddl_lang.semantics.allocation import check_allocation
 from nddl_lang.semantics.classes import complain_taken
 from nddl_lang.semantics.codes import CLASS_TYPEDEF, DUPLICATE_NAME, DUPLICATE_VALUE, NARROWED_TYPEDEF
+from nddl_lang.semantics.declared_twice import without_second
 from nddl_lang.semantics.schema import Domain, Enumeration, EnumValue, Kind, Type, Typedef, Values, Variable
 from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.typenames import find_declared_type, find_type
@@ -83,14 +84,15 @@ def check_globals(context: Context, node: VariableDecl) -> None:
         first = context.symbols.find_global(name) or context.symbols.find_goal(name)
         if first is not None:
             notes = (Note("the first declaration is here", first.span),) if first.span is not None else ()
-            context.complain(DUPLICATE_NAME.at(declarator.name.span, notes=notes, name=name))
+            complaint = DUPLICATE_NAME.at(declarator.name.span, notes=notes, name=name)
+            context.complain(without_second(complaint, node, declarator))
         value = declarator.initialiser
         if isinstance(value, NewExpr):
             check_allocation(context, scope, value)
         if type_ is None:
             context.symbols.put_faulty(name)
             continue
-        is_sound = value is None or check_value(context, scope, value, type_, name) is not None
+        is_sound = value is None or check_value(context, scope, value, type_, name, node) is not None
         if first is not None:
             continue
         variable = Variable(name, type_, declarator.name.span, value, node, node.doc)

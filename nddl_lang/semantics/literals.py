@@ -71,4 +71,4 @@ def whole_beside(value: float | int | None, span: Span) -> tuple[Fix, ...]:
     if value is None or not is_fraction(value):
         return ()
     near = (str(floor(value)), str(ceil(value)))
-    return tuple(Fix(f"write `{each}`", (Edit(span, each),), safe=False) for each in near)
+    return tuple(Fix(f"write `{each}`", (Edit(span, each),), safe=False, is_choice=True) for each in near)

@@ -7,8 +7,8 @@ globals, classes. Before a dot a token comes first: `x.y` is the token's variabl
 import re
 from collections.abc import Iterable, Sequence
 
+from nddl_lang.semantics.class_as_value import complain_class
 from nddl_lang.semantics.codes import (
-    CLASS_AS_VALUE,
     DECLARED_BELOW,
     MISPLACED_THIS,
     NAME_OF_OTHER_BLOCK,
@@ -18,8 +18,9 @@ from nddl_lang.semantics.codes import (
     UNKNOWN_NAME,
     UNKNOWN_TOKEN_VARIABLE,
 )
+from nddl_lang.semantics.declared_twice import tell_reused
 from nddl_lang.semantics.natives import builtin_names, builtin_type, other_name
-from nddl_lang.semantics.owned_names import owned_names
+from nddl_lang.semantics.owned_names import declared_note, others_with, owned_by_others, owned_names
 from nddl_lang.semantics.schema import (
     ClassReference,
     EnumValue,
@@ -28,7 +29,6 @@ from nddl_lang.semantics.schema import (
     Label,
     LocalReference,
     MemberReference,
-    Predicate,
     Reference,
     TokenReference,
     TokenVariableReference,
@@ -44,7 +44,7 @@ TOKEN_OF_SCRIPT = "`{name}` is a token of the script; rules and predicates see o
 
 MOST_NAMED = 8  # names that a help lists
 _VALUE_TABLES = ("global", "goal", "value")
-_COMPARISONS = frozenset(("==", "!=", "<", "<=", ">", ">="))
+COMPARISONS = frozenset(("==", "!=", "<", "<=", ">", ">="))
 _LITERALS = ("true", "false", "inf", "inff")
 _HYPHEN = re.compile(r"-([A-Za-z_$][\w$]*)", re.ASCII)
 _TRUTHS = {"yes": "true", "no": "false", "on": "true", "off": "false"}
@@ -64,7 +64,7 @@ def resolve(
         if reference is None:
             complain_unknown(context, scope, parts[0], type_name=type_name, compared=compared)
     else:
-        reference = resolve_dotted(context, scope, parts, _last_of(compared, parts))
+        reference = resolve_dotted(context, scope, parts, compared)
     if reference is not None:
         context.tables.references[path] = reference
         context.tables.references[parts[-1]] = reference
@@ -75,29 +75,14 @@ def resolve_value(context: Context, scope: Scope, path: PathExpr, compared: str 
     """Like `resolve`, for a place where a class is no answer."""
     reference = resolve(context, scope, path, compared=compared)
     if isinstance(reference, ClassReference):
-        _complain_class(context, scope, path.span, reference.name)
+        complain_class(context, scope, path.parts)
         return None
     return reference
 
 
-def _complain_class(
-    context: Context, scope: Scope, span: Span, name: str, value: EnumValue | None = None, path: Span | None = None
-) -> None:
-    """Say that a class stands where a value is needed: its name may differ from a variable's in a capital only.
-
-    `value` is what follows it in the `path`, if that is a value of an enum.
-    """
-    values = [*scope.visible(), *context.symbols.names("global")]
-    alike = next((each for each in values if each.casefold() == name.casefold() and each != name), None)
-    meant, at = (f"{value.enum}.{value.value}", path or span) if value is not None else (alike, span)
-    fixes = (Fix(f"write `{meant}`", (Edit(at, meant),), safe=False),) if meant is not None else ()
-    help_ = f"did you mean `{meant}`?" if meant is not None else None
-    context.complain(CLASS_AS_VALUE.at(span, help=help_, fixes=fixes, name=name))
-
-
 def name_beside(binary: BinaryExpr, side: Expr) -> str | None:
     """The name on one side of a comparison: nobody means to compare it with itself."""
-    return side.span.text if binary.op in _COMPARISONS and isinstance(side, PathExpr) else None
+    return side.span.text if binary.op in COMPARISONS and isinstance(side, PathExpr) else None
 
 
 def _last_of(compared: str | None, parts: Sequence[Identifier]) -> str | None:
@@ -130,10 +115,12 @@ def find_script_token(context: Context, scope: Scope, name: str) -> Label | None
 
 
 def resolve_dotted(
-    context: Context, scope: Scope, parts: Sequence[Identifier], but: str | None = None
+    context: Context, scope: Scope, parts: Sequence[Identifier], compared: str | None = None
 ) -> Reference | None:
-    """What `a.b.c` names; None, after a complaint, where it names nothing. The last name is not meant to be `but`."""
+    """What `a.b.c` names; None, after a complaint, where it names nothing. It is not meant to be `compared`."""
     symbols, (head, *rest) = context.symbols, parts
+    but = _last_of(compared, parts)
+    others = others_with(context, scope, rest[0].name, compared) if len(rest) == 1 else []
     label = scope.find_label(head.name)
     start: Reference | None
     if label is None:
@@ -142,7 +129,9 @@ def resolve_dotted(
             label = goal
     if label is not None:
         context.tables.references[head] = TokenReference(label)
-        start = _find_token_variable(context, label, rest[0], but if len(rest) == 1 else None)
+        if tell_reused(context, scope, label, rest[0].name):
+            return None
+        start = _find_token_variable(context, label, parts, but if len(rest) == 1 else None, others)
         if start is None:
             return None
         head = rest.pop(0)
@@ -154,14 +143,12 @@ def resolve_dotted(
         case None:
             complain_unknown(context, scope, head)
             return None
-        case ClassReference(name=name):
+        case ClassReference():
             context.tables.references[head] = start
-            _complain_class(
-                context, scope, head.span, name, symbols.find_value(rest[-1].name), head.span.to(rest[-1].span)
-            )
+            complain_class(context, scope, parts)
             return None
     context.tables.references[head] = start
-    return follow(context, scope, start, head, rest, but)
+    return follow(context, scope, start, head, rest, but, others)
 
 
 def _qualified_value(context: Context, enum: str, name: Identifier) -> EnumValue | None:
@@ -176,11 +163,17 @@ def _qualified_value(context: Context, enum: str, name: Identifier) -> EnumValue
 
 
 def follow(
-    context: Context, scope: Scope, start: Reference, head: Identifier, rest: list[Identifier], but: str | None = None
+    context: Context,
+    scope: Scope,
+    start: Reference,
+    head: Identifier,
+    rest: list[Identifier],
+    but: str | None = None,
+    others: Sequence[str] = (),
 ) -> Reference | None:
     """The member `rest` of the object that `start` (written `head`) refers to; a complaint where there is none.
 
-    The last of them is not meant to be `but`.
+    The last of them is not meant to be `but`; `others` have it.
     """
     reference = start
     for part in rest:
@@ -193,7 +186,7 @@ def follow(
             return None
         member = context.symbols.find_member(type_.base, part.name)
         if member is None:
-            complain_unknown_member(context, type_.base, part, but if part is rest[-1] else None)
+            complain_unknown_member(context, type_.base, part, but if part is rest[-1] else None, head, others)
             return None
         if isinstance(reference, MemberReference):
             reference = MemberReference(reference.base, (*reference.members, member))
@@ -206,9 +199,10 @@ def follow(
 
 
 def _find_token_variable(
-    context: Context, label: Label, name: Identifier, but: str | None
+    context: Context, label: Label, parts: Sequence[Identifier], but: str | None, others: Sequence[str]
 ) -> TokenVariableReference | None:
-    """The variable `name` of a token; a complaint where it has none, which is not meant to be `but`."""
+    """The variable of a token; a complaint where it has none, which is not meant to be `but`; `others` have one."""
+    head, name = parts[:2]
     predicate = label.predicate
     type_ = builtin_type(name.name, predicate)
     if type_ is None:
@@ -219,11 +213,13 @@ def _find_token_variable(
         return variable
     if not context.symbols.is_partial(predicate.class_name) and not context.symbols.is_doubtful(name.name):
         complaint = UNKNOWN_TOKEN_VARIABLE.at(
-            name.span, notes=_declared_note(predicate), predicate=predicate.full_name, name=name.name
+            name.span, notes=declared_note(predicate), predicate=predicate.full_name, name=name.name
         )
         if predicate.is_event and name.name in ("start", "end"):
             fix = Fix("write `time`", (Edit(name.span, "time"),))
             complaint = _with(complaint, "an event has one `time`, in place of `start` and `end`", (fix,))
+        elif others:
+            complaint = owned_by_others(complaint, head.span.to(name.span), others)
         else:
             names = [parameter.name for parameter in predicate.parameters if parameter.name != but]
             only = names[0] if len(names) == 1 and but is None else None
@@ -244,15 +240,15 @@ def _find_token_variable(
     return None
 
 
-def _declared_note(predicate: Predicate) -> tuple[Note, ...]:
-    """A note that points at the declaration of a predicate."""
-    if predicate.span is None:
-        return ()
-    return (Note(f"`{predicate.full_name}` is declared here", predicate.span),)
-
-
-def complain_unknown_member(context: Context, class_name: str, name: Identifier, but: str | None = None) -> None:
-    """Say that a class has no such member; `but` is not what was meant."""
+def complain_unknown_member(
+    context: Context,
+    class_name: str,
+    name: Identifier,
+    but: str | None = None,
+    head: Identifier | None = None,
+    others: Sequence[str] = (),
+) -> None:
+    """Say that a class has no such member; `but` is not what was meant, `others` than `head` have one."""
     symbols = context.symbols
     if symbols.is_partial(class_name) or symbols.is_doubtful(name.name):
         return
@@ -263,6 +259,9 @@ def complain_unknown_member(context: Context, class_name: str, name: Identifier,
     if owner is not None and not owner.is_defined:
         complaint = _with(complaint, f"`{class_name}` is only announced so far; define it above this place", ())
     members = [each for each in _members(context, class_name) if each != but]
+    if others and head is not None:
+        context.complain(owned_by_others(complaint, head.span.to(name.span), others))
+        return
     complaint = suggest_name(complaint, name, members)
     if complaint.help is None and 0 < len(members) <= MOST_NAMED:
         complaint = _with(complaint, f"its {listed('member', members)}", ())

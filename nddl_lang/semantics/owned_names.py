@@ -1,12 +1,38 @@
 """A name that stands alone in a rule in, such as `quantity`; the paths that it may have been short for out."""
 
-from nddl_lang.semantics.schema import Kind
+from collections.abc import Sequence
+from dataclasses import replace
+
+from nddl_lang.semantics.schema import Kind, Predicate
 from nddl_lang.semantics.scope import Context, Scope
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
+from nddl_lang.text.source import Span
 
 
 def owned_names(context: Context, scope: Scope, name: str) -> list[str]:
     """The variables of that name which the tokens and the objects have that the rule names."""
     return [*_variables_of_tokens(scope, name), *_members_of_variables(context, scope, name)]
+
+
+def others_with(context: Context, scope: Scope, name: str, compared: str | None) -> list[str]:
+    """What a rule has of that name, but for `compared`: of its tokens and objects, its parameters and variables."""
+    is_bare = name in scope.parameters or scope.find_local(name) is not None
+    found = [*owned_names(context, scope, name), *([name] if is_bare else [])]
+    return [each for each in found if each != compared]
+
+
+def owned_by_others(complaint: Diagnostic, at: Span, others: Sequence[str]) -> Diagnostic:
+    """The complaint that something lacks a variable, with who has it."""
+    fixes = tuple(Fix(f"write `{each}`", (Edit(at, each),), safe=False) for each in others if len(others) == 1)
+    help_ = f"did you mean {' or '.join(f'`{each}`' for each in others)}?"
+    return replace(complaint, help=help_, fixes=fixes)
+
+
+def declared_note(predicate: Predicate) -> tuple[Note, ...]:
+    """A note that points at the declaration of a predicate."""
+    if predicate.span is None:
+        return ()
+    return (Note(f"`{predicate.full_name}` is declared here", predicate.span),)
 
 
 def _variables_of_tokens(scope: Scope, name: str) -> list[str]:

@@ -9,6 +9,7 @@ from nddl_lang.semantics.codes import (
     UNKNOWN_NAME,
 )
 from nddl_lang.semantics.constraining import check_call_constraint, check_expression_constraint
+from nddl_lang.semantics.declared_twice import without_second
 from nddl_lang.semantics.names import find, resolve
 from nddl_lang.semantics.natives import builtin_type
 from nddl_lang.semantics.schema import Class, ClassReference, Label, Predicate, TokenVariableReference, Variable
@@ -79,7 +80,7 @@ def _declare_parameters(
             elif (first := known.get(name)) is not None:
                 notes = (Note("the first one is here", first.span),) if first.span is not None else ()
                 complaint = DUPLICATE_PARAMETER.at(declarator.name.span, notes=notes, owner=full_name, name=name)
-                context.complain(complaint)
+                context.complain(without_second(complaint, statement, declarator))
             elif type_ is None:
                 context.symbols.put_faulty(name)
             else:
@@ -95,9 +96,9 @@ def _declare_parameters(
 def _check_body(context: Context, scope: Scope, node: PredicateDecl, own: dict[Declarator, Variable]) -> None:
     for statement in node.body:
         match statement:
-            case VariableDecl(declarators=declarators):
-                for declarator in declarators:
-                    _check_parameter(context, scope, declarator, own.get(declarator))
+            case VariableDecl():
+                for declarator in statement.declarators:
+                    _check_parameter(context, scope, declarator, own.get(declarator), statement)
             case CallConstraint():
                 check_call_constraint(context, scope, statement)
             case ExprConstraint(expression=PathExpr(parts=(name,))) if _is_half_declared(context, scope, name):
@@ -131,11 +132,13 @@ def _is_half_declared(context: Context, scope: Scope, name: Identifier) -> bool:
     return True
 
 
-def _check_parameter(context: Context, scope: Scope, declarator: Declarator, parameter: Variable | None) -> None:
+def _check_parameter(
+    context: Context, scope: Scope, declarator: Declarator, parameter: Variable | None, node: VariableDecl
+) -> None:
     if parameter is None:
         return
     if declarator.initialiser is not None:
-        check_value(context, scope, declarator.initialiser, parameter.type, parameter.name)
+        check_value(context, scope, declarator.initialiser, parameter.type, parameter.name, node)
     scope.parameters[parameter.name] = parameter
 
 

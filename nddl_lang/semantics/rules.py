@@ -96,7 +96,7 @@ def _check_locals(context: Context, scope: Scope, node: VariableDecl) -> None:
             scope.doubt(name)
             continue
         if declarator.initialiser is not None:
-            check_value(context, scope, declarator.initialiser, type_, name)
+            check_value(context, scope, declarator.initialiser, type_, name, node)
         variable = Variable(name, type_, declarator.name.span, declarator.initialiser, node, node.doc)
         scope.variables[name] = LocalReference(variable)
         context.tables.locals[declarator] = variable

@@ -21,6 +21,7 @@ from nddl_lang.syntax.nodes import NewExpr, PathExpr, Relation, RuleDecl, RuleSt
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 
+_ANY = ""  # stands for all names among those that are doubtful
 _NAME = re.compile(r"[A-Za-z_$][A-Za-z0-9_$]*")
 _HYPHENATED = re.compile(r"(?<![\w$])[A-Za-z_$][\w$]*(?:-[\w$]+)+")
 
@@ -68,6 +69,7 @@ class Scope:
 
     __slots__ = (
         "_body",
+        "_hidden",
         "_later",
         "_lost",
         "_own",
@@ -96,6 +98,7 @@ class Scope:
         self._body: tuple[RuleStatement, ...] = ()
         self._vague: set[str] = set()
         self._unnamed: dict[str, PathExpr] = {}
+        self._hidden: dict[Label, Label] = {}
 
     def block(self) -> "Scope":
         """The scope of a block inside this one."""
@@ -108,6 +111,7 @@ class Scope:
         inner._body = self._body
         inner._vague = self._vague
         inner._unnamed = self._unnamed
+        inner._hidden = self._hidden
         return inner
 
     def leave(self) -> None:
@@ -148,7 +152,21 @@ class Scope:
 
     def is_doubtful(self, name: str) -> bool:
         """Whether text that was not understood may have declared `name`."""
-        return name in self._vague
+        return name in self._vague or _ANY in self._vague
+
+    def doubt_all(self) -> None:
+        """Let every unknown name from here on be one that was to be declared."""
+        self._vague.add(_ANY)
+
+    def name_token(self, label: Label) -> None:
+        """Know a child token by its name, in place of one that had it before."""
+        if (first := self.find_label(label.name)) is not None:
+            self._hidden[label] = first
+        self.labels[label.name] = label
+
+    def hidden_by(self, label: Label) -> Label | None:
+        """The token that had the same name before."""
+        return self._hidden.get(label)
 
     def find_local(self, name: str) -> LocalReference | None:
         """The local variable, foreach variable or formal parameter of that name."""

@@ -144,7 +144,7 @@ def _check_instance(context: Context, scope: Scope, instance: Instance) -> Label
         if label is not None and instance.name is not None and not _declare_goal(context, label, instance.name):
             label = None
     elif label is not None:
-        scope.labels[label.name] = label
+        scope.name_token(label)
     else:
         scope.ask_unnamed(instance.path)
     context.tables.targets[instance] = Target(predicate, source, label)

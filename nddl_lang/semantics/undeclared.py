@@ -3,11 +3,12 @@
 from dataclasses import replace
 
 from nddl_lang.semantics.codes import UNKNOWN_NAME
-from nddl_lang.semantics.names import find
+from nddl_lang.semantics.names import COMPARISONS, find
 from nddl_lang.semantics.schema import Kind, Type
 from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.types import comparable, reference_type
-from nddl_lang.syntax.nodes import BinaryExpr, ExprConstraint, PathExpr
+from nddl_lang.syntax.nodes import BinaryExpr, Expr, ExprConstraint, PathExpr
+from nddl_lang.syntax.walk import descendants
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
 from nddl_lang.text.source import Span
 
@@ -15,23 +16,56 @@ from nddl_lang.text.source import Span
 def propose_declaration(context: Context, scope: Scope, node: ExprConstraint, first: int) -> None:
     """Where a rule gives an unknown name a value and no known one is meant, propose to declare it.
 
-    The complaints of this statement begin with number `first`. A known name that is spelt alike and could never equal
-    the value is not meant.
+    The complaints of this statement begin with number `first`. A known name that is spelt alike is not meant where it
+    could never equal the value, nor where the value is computed from it. What has members and is called like a class is
+    declared as an object of that.
     """
-    expression = node.expression
-    if scope.kind is not BlockKind.RULE or not isinstance(expression, BinaryExpr) or expression.op != "==":
+    if scope.kind is not BlockKind.RULE:
         return
-    type_ = context.tables.types.get(expression.right)
-    if type_ is None or not isinstance(expression.left, PathExpr) or len(expression.left.parts) != 1:
-        return
-    name = expression.left.parts[0]
     for number, complaint in enumerate(context.complaints[first:], start=first):
-        if complaint.code is not UNKNOWN_NAME or complaint.span != name.span:
+        if complaint.code is not UNKNOWN_NAME:
             continue
-        if (complaint.help is None and not complaint.fixes) or not _may_be_meant(context, scope, complaint, type_):
-            written = f"{type_.name} {name.name};"
-            fix = Fix(f"declare `{written}`", (_before(node.span, written),), safe=False)
-            context.complaints[number] = replace(complaint, help=f"declare it: `{written}`", fixes=(fix,))
+        if (owner := _class_of(context, node, complaint)) is not None:
+            context.complaints[number] = _declared(complaint, node, owner)
+        elif isinstance(node.expression, BinaryExpr) and node.expression.op in COMPARISONS:
+            for side, other in _sides(node.expression):
+                if isinstance(side, PathExpr) and len(side.parts) == 1 and complaint.span == side.span:
+                    is_given = side is node.expression.left or not isinstance(other, PathExpr)
+                    type_ = context.tables.types.get(other) if is_given and node.expression.op == "==" else None
+                    context.complaints[number] = _reconsidered(context, scope, node, complaint, other, type_)
+
+
+def _sides(binary: BinaryExpr) -> tuple[tuple[Expr, Expr], tuple[Expr, Expr]]:
+    return (binary.left, binary.right), (binary.right, binary.left)
+
+
+def _class_of(context: Context, node: ExprConstraint, complaint: Diagnostic) -> str | None:
+    """The class that an unknown name before a dot is called like, but for capitals."""
+    name = complaint.span.text
+    has_members = any(
+        isinstance(each, PathExpr) and len(each.parts) > 1 and each.parts[0].span == complaint.span
+        for each in descendants(node)
+    )
+    alike = [each for each in context.symbols.names("class") if each.casefold() == name.casefold()]
+    return alike[0] if has_members and len(alike) == 1 else None
+
+
+def _reconsidered(
+    context: Context, scope: Scope, node: ExprConstraint, complaint: Diagnostic, value: Expr, type_: Type | None
+) -> Diagnostic:
+    """A complaint of a name that is compared with `value`, of `type_` where it is given that."""
+    proposed = {edit.text for fix in complaint.fixes for edit in fix.edits}
+    is_circular = any(isinstance(each, PathExpr) and each.span.text in proposed for each in descendants(value))
+    is_told = complaint.help is not None or complaint.fixes
+    if type_ is not None and (not is_told or is_circular or not _may_be_meant(context, scope, complaint, type_)):
+        return _declared(complaint, node, type_.name)
+    return replace(complaint, help=None, fixes=()) if is_circular else complaint
+
+
+def _declared(complaint: Diagnostic, node: ExprConstraint, type_name: str) -> Diagnostic:
+    written = f"{type_name} {complaint.span.text};"
+    fix = Fix(f"declare `{written}`", (_before(node.span, written),), safe=False)
+    return replace(complaint, help=f"declare it: `{written}`", fixes=(fix,))
 
 
 def _may_be_meant(context: Context, scope: Scope, complaint: Diagnostic, value: Type) -> bool:

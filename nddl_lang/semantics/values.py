@@ -31,17 +31,23 @@ from nddl_lang.syntax.nodes import (
     SetExpr,
     StringLiteral,
     UnaryExpr,
+    VariableDecl,
 )
 from nddl_lang.text.diagnostic import Edit, Fix
 
 
-def check_value(context: Context, scope: Scope, expression: Expr, target: Type, name: str) -> Type | None:
-    """Complain where `expression` cannot be the value of variable `name`; its type, None after a complaint."""
+def check_value(
+    context: Context, scope: Scope, expression: Expr, target: Type, name: str, declared: VariableDecl | None = None
+) -> Type | None:
+    """Complain where `expression` cannot be the value of variable `name`; its type, None after a complaint.
+
+    `declared`: the value stands in that declaration.
+    """
     type_ = type_of(context, scope, expression)
     if type_ is None:
         return None
     if not _fits(context, expression, type_, target):
-        _complain_misfit(context, expression, type_, target, name)
+        _complain_misfit(context, expression, type_, target, name, declared)
         return None
     return type_ if check_restriction(context, expression, target, name) else None
 
@@ -137,7 +143,9 @@ def _fits(context: Context, expression: Expr, found: Type, target: Type) -> bool
             return is_infinite(expression)
 
 
-def _complain_misfit(context: Context, expression: Expr, found: Type, target: Type, name: str) -> None:
+def _complain_misfit(
+    context: Context, expression: Expr, found: Type, target: Type, name: str, declared: VariableDecl | None
+) -> None:
     """Point at the first part of the value that does not fit, or at all of it."""
     part, part_type = expression, found
     parts: tuple[Expr, ...] = ()
@@ -153,7 +161,7 @@ def _complain_misfit(context: Context, expression: Expr, found: Type, target: Ty
             break
     help_, fixes = member_meant(context, part, part_type, target)
     if help_ is None:
-        help_, fixes = _mend(part, target, name)
+        help_, fixes = _mend(part, target, name, declared)
     context.complain(
         DOES_NOT_FIT.at(
             part.span,
@@ -167,9 +175,12 @@ def _complain_misfit(context: Context, expression: Expr, found: Type, target: Ty
     )
 
 
-def _mend(value: Expr, target: Type, name: str) -> tuple[str | None, tuple[Fix, ...]]:
+def _mend(value: Expr, target: Type, name: str, declared: VariableDecl | None) -> tuple[str | None, tuple[Fix, ...]]:
     """What helps where a value does not fit, in words and as fixes."""
     if target.kind is Kind.INT and (fixes := whole_beside(number(value), value.span)):
+        if declared is not None and len(declared.declarators) == 1 and declared.type_name.span.text == "int":
+            as_float = Fix(f"declare `{name}` as a `float`", (Edit(declared.type_name.span, "float"),), safe=False)
+            fixes = (as_float, *fixes)
         return f"write a whole number, or declare `{name}` as a `float`", fixes
     text: str | None = None
     match value:

@@ -26,11 +26,15 @@ class Edit:
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """A mend that a tool may apply; a safe one keeps the meaning that the writer evidently had."""
+    """A mend that a tool may apply; a safe one keeps the meaning that the writer evidently had.
+
+    One that `is_choice` loses a part of what was written: whoever reads it may choose it, no command carries it out.
+    """
 
     title: str
     edits: tuple[Edit, ...]
     safe: bool = True
+    is_choice: bool = False
 
 
 @dataclass(frozen=True, slots=True)
