@@ -99,24 +99,43 @@ def _least_durations(predicate: PredicateCode, program: Program) -> Iterator[tup
 def _out_of_time(goal: GoalConfiguration, final_tick: int, least: float = 1.0) -> tuple[str, str, str] | None:
     """The key at fault, why there is no time for a goal, and what to do; it lasts `least` ticks or longer."""
     over = f"the mission ends at tick {final_tick}"
-    raise_it = "send it earlier, or let the mission end later (`final_tick`)"
+    later = "let the mission end later (`final_tick`)"
     start, end, duration = goal.start or _ANY, goal.end or _ANY, goal.duration or _ANY
+    shortest = max(duration[0], least)
+    latest = final_tick - shortest  # that it may begin
+
+    def sooner(key: str, tick: float, how: str) -> str:
+        return f"{how} at tick {tick:g} or earlier (`{key}`), or {later}" if tick >= 0 else later
+
     if goal.at >= final_tick:
-        return "at", f"it is sent at tick {goal.at}, and {over}", raise_it
+        return "at", f"it is sent at tick {goal.at}, and {over}", sooner("at", latest - 1, "send it")
     if start[0] >= final_tick:
-        return "start", f"it begins at tick {start[0]:g} or later, and {over}", raise_it
+        advice = sooner("start", latest, "let it begin") if latest > goal.at else later
+        return "start", f"it begins at tick {start[0]:g} or later, and {over}", advice
     if start[1] <= goal.at:
-        return "start", f"it begins by tick {start[1]:g}, and is sent at tick {goal.at}", "send it earlier (`at`)"
+        advice = "let it begin later (`start`)"
+        advice = f"send it before tick {start[1]:g} (`at`), or {advice}" if start[1] > 0 else advice
+        return (
+            "start",
+            f"it begins by tick {start[1]:g}, and is sent at tick {goal.at}",
+            advice,
+        )
     if duration[1] < least:
         shortest_one = "a token lasts one tick or longer" if least <= 1 else f"its rule says {least:g} or more"
         return "duration", f"it lasts {duration[1]:g} ticks at most", shortest_one
     first = max(start[0], goal.at + 1.0)
-    shortest = max(duration[0], least)
     if first + shortest > final_tick:
         key = "duration" if goal.duration is not None else "start" if goal.start is not None else "at"
-        return key, f"it ends at tick {first + shortest:g} or later, and {over}", raise_it
+        advice = later
+        if key == "duration" and final_tick - first >= least:
+            advice = f"let it last {final_tick - first:g} ticks or less (`duration`), or {later}"
+        elif start[0] > goal.at + 1 and latest > goal.at:
+            advice = sooner("start", latest, "let it begin")
+        elif start[0] <= goal.at + 1:
+            advice = sooner("at", latest - 1, "send it")
+        return key, f"it ends at tick {first + shortest:g} or later, and {over}", advice
     if end[0] > final_tick:
-        return "end", f"it ends at tick {end[0]:g} or later, and {over}", raise_it
+        return "end", f"it ends at tick {end[0]:g} or later, and {over}", sooner("end", final_tick, "let it end")
     if end[1] < first + shortest:
         return "end", f"it ends by tick {end[1]:g}, and cannot before tick {first + shortest:g}", "widen its bounds"
     return None

@@ -70,7 +70,9 @@ def test_what_lint_warns_of_is_told_before_a_flight(capsys: pytest.CaptureFixtur
     assert run(["run", "--until", "1"]) == 1
     assert told in capsys.readouterr().err
     run(["check", "--missions", "1", "--flights", "0", "--no-store"])
-    assert told in capsys.readouterr().out
+    out = capsys.readouterr().out
+    assert told in out
+    assert out.count("NDDL720") == 1
 
 
 @pytest.mark.usefixtures("kitchen")
