@@ -210,7 +210,9 @@ class Table:
             if is_finite and not may_be and not lower > value:
                 wanted = f"a number {HELD}" if abs(value) < math.inf else "finite"
             is_percent = (lower, upper) == (0.0, 1.0) and 1.0 < value <= 100.0
-            self.complain_of_value(key, value, wanted, f"{value:g} % is {value / 100:g}" if is_percent else None)
+            share = f"{value / 100:g}" if is_percent else ""
+            advice, written = f"{value:g} % is {share}", self.text.value_span((*self.path, key)).text
+            self.complain_of_value(key, value, wanted, advice if is_percent else None, (written, share))
         else:
             self._complain_of_type(key, value, "a number")
         return default
@@ -246,7 +248,7 @@ class Table:
         if _is_number(value):
             value = [value, value]
         if not (isinstance(value, list) and len(value) == 2 and all(_is_number(item) for item in value)):
-            self._complain_of_type(key, value, "a pair [lower, upper] of numbers", _as_pair(value))
+            self._complain_of_type(key, value, "a pair [lower, upper] of numbers", _as_pair(value, is_finite=is_finite))
             return None
         lower, upper = value
         if lower != lower or upper != upper:  # nan
@@ -355,10 +357,13 @@ def _meant_word(word: str, known: Sequence[str]) -> str | None:
     return nearest(word, known) or begun(word, known) or next((other for other in others if other in known), None)
 
 
-def _as_pair(value: object) -> str | None:
+def _as_pair(value: object, *, is_finite: bool) -> str | None:
     """How a range is written that is a text, or a list of other than two numbers."""
     if isinstance(value, list) and value and all(_is_number(each) for each in value):
-        return f"a pair has two numbers: write [{min(value)}, {max(value)}]"
+        least, most = min(value), max(value)
+        if len(value) == 1 and not is_finite:
+            return f"a pair has two numbers: [{least}, inf] is {least} or more, [-inf, {least}] {least} or less"
+        return f"a pair has two numbers: write [{least}, {most}]"
     numbers = _NUMBER.findall(re.sub(r"(?<=\d)\s*-\s*(?=\d)", " ", value)) if isinstance(value, str) else []
     return f"write [{numbers[0]}, {numbers[1]}]" if len(numbers) == 2 else None
 

@@ -152,7 +152,8 @@ def _reordered(
 
 def _misfit(symbols: SymbolTable, owner: Class, arguments: Sequence[Expr], types: Sequence[Type | None]) -> str | None:
     """Which argument is missing, one too many or of another type, where it is plain which constructor is meant."""
-    meant = [one for one in owner.constructors if len(one.parameters) == len(types)] or owner.constructors
+    far = [abs(len(one.parameters) - len(types)) for one in owner.constructors]
+    meant = [one for one, distance in zip(owner.constructors, far, strict=True) if distance == min(far)]
     if len(meant) != 1 or not meant[0].parameters or max(len(types), len(meant[0].parameters)) > MOST_REORDERED:
         return None
     parameters = meant[0].parameters
@@ -176,6 +177,9 @@ def _misfit(symbols: SymbolTable, owner: Class, arguments: Sequence[Expr], types
     kept = cheapest[0] if len(cheapest) == 1 else first
     if kept not in costs:
         return None
+    if is_short and len(cheapest) > 1 and len(owner.constructors) > 1:
+        wanted_all = ", ".join(map(_declared, parameters))
+        return f"{len(types)} of {len(parameters)} are given: `{owner.name}({wanted_all})`"
     others = [at for at in range(max(len(types), len(parameters))) if at not in kept]
     texts = [_declared(parameters[at]) if is_short else arguments[at].span.text for at in others]
     return told_places(others, texts, "missing" if is_short else "too many")

@@ -32,9 +32,11 @@ def complain_class(context: Context, scope: Scope, parts: Sequence[Identifier]) 
         fix = Fix(f"name the token `{word}`", edits, safe=False)
         context.complain(CLASS_AS_VALUE.at(head.span, help=help_, fixes=(fix,), name=head.name))
         return
-    values = [*scope.visible(), *context.symbols.names("global")]
-    meant = next((each for each in values if each.casefold() == head.name.casefold() and each != head.name), None)
     at = head.span
+    values = [*scope.visible(), *context.symbols.names("global")]
+    meant: str | None = next(
+        (each for each in values if each.casefold() == head.name.casefold() and each != head.name), None
+    )
     if len(parts) > 1 and (value := context.symbols.find_value(last.name)) is not None:
         meant, at = f"{value.enum}.{value.value}", head.span.to(last.span)
     fixes = (Fix(f"write `{meant}`", (Edit(at, meant),), safe=False),) if meant is not None else ()

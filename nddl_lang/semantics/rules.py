@@ -1,9 +1,11 @@
 """Check rules: their bodies statement by statement, with the names of each block."""
 
+import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from nddl_lang.semantics.allocation import check_allocation
-from nddl_lang.semantics.codes import NOT_A_COLLECTION, UNKNOWN_CLASS
+from nddl_lang.semantics.codes import NOT_A_COLLECTION, UNKNOWN_CLASS, UNKNOWN_TYPE
 from nddl_lang.semantics.constraining import check_call_constraint, check_expression_constraint
 from nddl_lang.semantics.expressions import check_guard
 from nddl_lang.semantics.names import resolve_value
@@ -26,7 +28,10 @@ from nddl_lang.syntax.nodes import (
     VariableDecl,
 )
 from nddl_lang.text.diagnostic import Edit, Fix
+from nddl_lang.text.source import Span
 
+_RETURNED = re.compile(r"return\s+([^;{}\n]+?)\s*;")
+_LASTS = re.compile(r"(?<![.\w])(?:duration|end|start)\b")
 _Block = tuple[Iterator[RuleStatement], Scope]
 
 
@@ -55,6 +60,7 @@ def check_rule(context: Context, node: RuleDecl) -> None:
     context.symbols.put("rule", predicate.full_name, Rule(predicate, node))
     # Blocks are kept on a list and not on Python's stack: `else if` may go on for long.
     open_blocks: list[_Block] = [(iter(node.body), rule_scope(predicate, node))]
+    first = len(context.complaints)
     while open_blocks:
         statements, scope = open_blocks[-1]
         statement = next(statements, None)
@@ -63,6 +69,22 @@ def check_rule(context: Context, node: RuleDecl) -> None:
             scope.leave()
         else:
             open_blocks += reversed(_check_statement(context, scope, statement))
+    _propose_duration(context, node, first)
+
+
+def _propose_duration(context: Context, node: RuleDecl, first: int) -> None:
+    """Of `return x;` in a rule that says nothing of how long its token lasts: that may be meant by it."""
+    text, begin = node.span.source.text, node.span.begin
+    for number, complaint in enumerate(context.complaints[first:], start=first):
+        if complaint.code is not UNKNOWN_TYPE or complaint.span.text != "return":
+            continue
+        returned = _RETURNED.match(text, complaint.span.begin, node.span.finish)
+        others = text[begin : complaint.span.begin] + text[complaint.span.finish : node.span.finish]
+        if returned is not None and _LASTS.search(others) is None:
+            written = f"duration == {returned[1]};"
+            span = Span(complaint.span.anchor, complaint.span.start, complaint.span.start + len(returned[0]))
+            fix = Fix(f"write `{written}`", (Edit(span, written),), safe=False)
+            context.complaints[number] = replace(complaint, help=f"{complaint.help}, as in `{written}`", fixes=(fix,))
 
 
 def _check_statement(context: Context, scope: Scope, statement: RuleStatement) -> list[_Block]:

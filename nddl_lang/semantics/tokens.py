@@ -274,13 +274,27 @@ def _check_bound(context: Context, scope: Scope, bound: IntervalExpr) -> None:
 
 def _check_existing(context: Context, scope: Scope, node: Relation, path: PathExpr) -> None:
     if len(path.parts) > 1:
-        name = Identifier(path.span.text, path.span)
-        context.complain(UNKNOWN_TOKEN.at(path.span, help="a token is known by a single name", name=name.name))
+        alike = _labels_of(context, scope, path, node)
+        named = f": {' or '.join(f'`{each}`' for each in alike)}" if alike else ""
+        fixes = tuple(Fix(f"write `{each}`", (Edit(path.span, each),), safe=False) for each in alike if len(alike) == 1)
+        help_ = f"a token is known by a single name{named}"
+        context.complain(UNKNOWN_TOKEN.at(path.span, help=help_, fixes=fixes, name=path.span.text))
         return
     label = _find_token(context, scope, path.parts[0], node)
     if label is not None:
         context.tables.existing[node] = label
         context.tables.references[path] = TokenReference(label)
+
+
+def _labels_of(context: Context, scope: Scope, path: PathExpr, node: Relation) -> list[str]:
+    """The tokens of a rule that are of the predicate which `path` names, but for the other end of a relation."""
+    *prefix, name = [part.name for part in path.parts]
+    labels = [scope.find_label(each) for each in dict.fromkeys(scope.visible_labels()) if each not in _linked(node)]
+    of_name = [one for one in labels if one is not None and one.predicate.name == name]
+    is_class = len(prefix) == 1 and context.symbols.find_class(prefix[0]) is not None
+    return [
+        one.name for one in of_name if not is_class or context.symbols.is_subclass(one.predicate.class_name, prefix[0])
+    ]
 
 
 def _find_target(context: Context, scope: Scope, path: PathExpr) -> tuple[Predicate, Reference | str] | None:

@@ -346,6 +346,10 @@ def _report_no_argument(b: Builder, call: CallExpr) -> None:
     if not name[:1].isupper():
         b.report(NO_ARGUMENT, call.span, name=name)
         return
+    if name.isupper() and len(name) > 1:
+        plain = Fix(f"write `{name}`", (Edit(call.span, name),), safe=False)
+        b.report(NO_ARGUMENT, call.span, help=f"a variable stands alone: `{name}`", fixes=(plain,), name=name)
+        return
     written = f"new {call.span.text}"
     edit = Edit(Span(call.span.anchor, call.span.start, call.span.start), "new ")
     fix = Fix(f"write `{written}`", (edit,), safe=False)

@@ -8,6 +8,7 @@ from nddl_lang.syntax.builder import Builder
 from nddl_lang.syntax.tables import END
 from nddl_lang.syntax.words import BASE_TYPES, GOALS, RELATIONS, RESERVED
 from nddl_lang.text.diagnostic import Edit, Fix
+from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Span
 
 _MOST_WORDS = 40  # of a statement that are looked at
@@ -28,6 +29,7 @@ class Idiom(NamedTuple):
     fix: Fix | None
 
 
+_NO_ARRAYS = "there are no arrays: declare a variable for each"
 # A pattern of the statement's lexemes with a blank between each two; what to say; the whole statement in NDDL.
 _ROWS: tuple[tuple[str, str, str], ...] = (
     # Values that change.
@@ -96,7 +98,7 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
         r"a domain stands after `=`: `\1 \2 = [\3 \4];`",
         r"\1 \2 = [\3 \4];",
     ),
-    (rf"(?:{_TYPE}|{_N}) (?:{_N} \[|\[ ?\S* ?\] {_N}\b).*", "there are no arrays: declare a variable for each", ""),
+    (rf"(?:{_TYPE}|{_N}) (?:{_N} \[|\[ ?\S* ?\] {_N}\b).*", _NO_ARRAYS, ""),
     (
         rf"({_N}) [*&] ({_N}) (= new .*);|({_TYPE}) [*&] ({_N}.*);",
         r"there are no pointers, and no `*`: `\1\4 \2\5`",
@@ -242,6 +244,16 @@ _ROWS: tuple[tuple[str, str, str], ...] = (
         r"numbers have a decimal point: `\2.\3`",
         r"\1 \2.\3;",
     ),
+    (
+        r"(.*\[) ([-+]?\d+) , (\d+) ([-+]?[\d.]+) \] ;",
+        r"numbers have a decimal point: `[\2.\3 \4]`",
+        r"\1\2.\3 \4];",
+    ),
+    (
+        r"(.*\[) ([-+]?\d+) , (\d+) ([-+]?\d+) , (\d+) \] ;",
+        r"numbers have a decimal point: `[\2.\3 \4.\5]`",
+        r"\1\2.\3 \4.\5];",
+    ),
     (rf"({_N} :: {_N}) ([^{{]*[^{{\w ][^{{]*) \{{", r"a rule is written `\1 { }`, without `\2`", ""),
     (r"((?:[-=:>] ?)+) \{", r"the braces stand right after what they belong to, without `\1`", ""),
 )
@@ -297,10 +309,15 @@ def find_idiom(b: Builder, first: int, index: int, is_inside: bool) -> Idiom | N
         return Idiom("a comment begins with `//`", fix)
     for pattern, help_, written in _table():
         match = pattern.fullmatch(text)
-        if match is not None:
+        if match is not None and not (help_ == _NO_ARRAYS and _is_relation(b, first)):
             fix = _fix(b, first, last, _tidied(match.expand(written))) if written and is_whole else None
             return Idiom(_tidied(match.expand(help_)), fix)
     return None
+
+
+def _is_relation(b: Builder, first: int) -> bool:
+    """Whether the second word of the statement that begins at `first` is a relation, misspelt: `a befor [1 10] b`."""
+    return b.kinds[first + 1] == "IDENT" and nearest(b.texts[first + 1], RELATIONS) is not None
 
 
 def _is_token(b: Builder, first: int, name: str) -> bool:
