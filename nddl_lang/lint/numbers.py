@@ -11,6 +11,7 @@ from nddl_lang.lint.codes import (
     INT_AMONG_FLOATS,
     INT_RESULT,
     NEVER_WHOLE,
+    TRUTH_AS_NUMBER,
     WHOLE_FLOAT,
 )
 from nddl_lang.lint.part import Facts, Finding, Part
@@ -249,10 +250,18 @@ def lint_chained_comparisons(part: Part) -> Iterator[Finding]:
 
 
 def lint_truths_as_numbers(part: Part) -> Iterator[Finding]:
-    """A truth that is to equal a number which is neither 0 nor 1: `LIMIT == (a > 3)`."""
+    """A truth that is to equal a number: one which is neither 0 nor 1, `LIMIT == (a > 3)`, or a written 0 or 1."""
     conditions = {each.condition for each in part.all(IfStatement)}
     for comparison in part.all(BinaryExpr):
         for truth, other in ((comparison.left, comparison.right), (comparison.right, comparison.left)):
+            if comparison.op in ("==", "!=") and isinstance(truth, PathExpr) and _kind(part, truth) is Kind.BOOL:
+                if isinstance(other, IntLiteral) and other.value in (0, 1):
+                    word = "true" if other.value else "false"
+                    fix = Fix(f"write `{word}`", (Edit(other.span, word),))
+                    yield TRUTH_AS_NUMBER.at(
+                        other.span, fixes=(fix,), name=truth.span.text, value=other.value, truth=word
+                    )
+                    continue
             is_told = comparison in conditions and isinstance(truth, PathExpr)  # as a condition that never holds
             if comparison.op not in ("==", "!=") or is_told or _kind(part, truth) is not Kind.BOOL:
                 continue

@@ -27,6 +27,7 @@ from nddl_lang.lint.codes import (
     OUTSIDE_HORIZON,
     OVER_CAPACITY,
     OVERLOOKED,
+    TRUTH_AS_NUMBER,
     UNCLOSED,
     WHOLE_FLOAT,
 )
@@ -116,6 +117,14 @@ VALUE_PAGES = (
         "unless the truth is to equal a number that is neither, as in `LIMIT == (a > b)`.",
         "int a; int b; int c;\na < b < c;\n",
         "int a; int b; int c;\na < b && b < c;\n",
+    ),
+    RulePage(
+        TRUTH_AS_NUMBER,
+        "A bool is compared with 0 or 1.",
+        "EUROPA takes both, and so does nddlc: a truth counts as 0 or 1. Only editors show this; `--level hint` shows "
+        "it elsewhere.",
+        "bool loaded;\nloaded == 1;\n",
+        "bool loaded;\nloaded == true;\n",
     ),
     RulePage(
         NEVER_WHOLE,

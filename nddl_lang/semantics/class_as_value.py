@@ -40,8 +40,8 @@ def complain_class(context: Context, scope: Scope, parts: Sequence[Identifier]) 
     if len(parts) > 1 and (value := context.symbols.find_value(last.name)) is not None:
         meant, at = f"{value.enum}.{value.value}", head.span.to(last.span)
     fixes = (Fix(f"write `{meant}`", (Edit(at, meant),), safe=False),) if meant is not None else ()
-    help_ = f"did you mean `{meant}`?" if meant is not None else None
-    context.complain(CLASS_AS_VALUE.at(head.span, help=help_, fixes=fixes, name=head.name))
+    advice = f"did you mean `{meant}`?" if meant is not None else None
+    context.complain(CLASS_AS_VALUE.at(head.span, help=advice, fixes=fixes, name=head.name))
 
 
 def _of_tokens(context: Context, scope: Scope, parts: Sequence[Identifier]) -> Iterator[str]:
