@@ -362,7 +362,7 @@ def _as_pair(value: object, *, is_finite: bool) -> str | None:
     if isinstance(value, list) and value and all(_is_number(each) for each in value):
         least, most = min(value), max(value)
         if len(value) == 1 and not is_finite:
-            return f"a pair has two numbers: [{least}, inf] is {least} or more, [-inf, {least}] {least} or less"
+            return f"a pair has two numbers: write [{least}, {least}], or [{least}, inf] for {least} or more"
         return f"a pair has two numbers: write [{least}, {most}]"
     numbers = _NUMBER.findall(re.sub(r"(?<=\d)\s*-\s*(?=\d)", " ", value)) if isinstance(value, str) else []
     return f"write [{numbers[0]}, {numbers[1]}]" if len(numbers) == 2 else None
