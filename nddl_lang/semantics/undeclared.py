@@ -40,14 +40,16 @@ def _sides(binary: BinaryExpr) -> tuple[tuple[Expr, Expr], tuple[Expr, Expr]]:
 
 
 def _class_of(context: Context, node: ExprConstraint, complaint: Diagnostic) -> str | None:
-    """The class that an unknown name before a dot is called like, but for capitals."""
+    """The class that an unknown name is called like, but for capitals, where it has the member behind the dot."""
     name = complaint.span.text
-    has_members = any(
-        isinstance(each, PathExpr) and len(each.parts) > 1 and each.parts[0].span == complaint.span
+    members = {
+        each.parts[1].name
         for each in descendants(node)
-    )
+        if isinstance(each, PathExpr) and len(each.parts) > 1 and each.parts[0].span == complaint.span
+    }
     alike = [each for each in context.symbols.names("class") if each.casefold() == name.casefold()]
-    return alike[0] if has_members and len(alike) == 1 else None
+    has_them = all(context.symbols.find_member(each, member) is not None for each in alike for member in members)
+    return alike[0] if members and len(alike) == 1 and has_them else None
 
 
 def _reconsidered(
