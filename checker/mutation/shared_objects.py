@@ -28,7 +28,7 @@ def with_shared(sites: Sequence[EditSite]) -> list[EditSite]:
 def _with(site: EditSite, edits: list[SmallEdit]) -> EditSite:
     fresh = {(edit.begin, edit.new): edit for edit in edits}
     kept = [edit for edit in site.edits if (edit.begin, edit.new) not in fresh]
-    return replace(site, edits=(*kept, *fresh.values()), wanted=site.wanted | fresh.keys())
+    return replace(site, edits=(*fresh.values(), *kept), wanted=site.wanted | fresh.keys())
 
 
 def _of_others(site: EditSite, group: Sequence[EditSite]) -> list[SmallEdit]:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.counterfactual.smallness import delay_of
+from checker.counterfactual.smallness import delay_of, first_edits
 from checker.counterfactual.usage import usage_of
 from checker.mutation.edits import sites_of
 from checker.mutation.shared_objects import with_shared
@@ -37,6 +37,7 @@ def wanted(folder: Path, *files: tuple[str, str, str]) -> set[tuple[str, str, st
     usage = usage_of(sites)
     found = [(site, edit) for site in sites for edit in site.edits if (edit.begin, edit.new) in site.wanted]
     assert all(delay_of(edit, site, usage) == -1.0 for site, edit in found)
+    assert all(first_edits(site, usage)[0][1] == edit for site, edit in found)  # before its numbers change places
     assert all(site.after(edit).startswith(f"Batten {site.named} = new Batten(") for site, edit in found)
     return {(Path(edit.file).stem, edit.old, edit.new) for _, edit in found}
 
