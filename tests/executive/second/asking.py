@@ -15,7 +15,9 @@ def dispatch(reactor: Reactor) -> tuple[list[Request], list[Request]]:
         if request.token is None and request.is_kept and request.goal.state == "begun" and here in merged:
             request.token = here  # what runs has found it again
     reactor.requests = [one for one in reactor.requests if not _is_over(reactor, one)]
-    lost = [one for one in reactor.requests if one.token is None or _is_void(reactor, one, one.token, merged)]
+    lost: list[Request] = []
+    while more := [one for one in reactor.requests if one not in lost and _is_lost(reactor, one, merged, lost)]:
+        lost += more  # and what comes behind what is asked for anew
     for request in lost:
         wanted.discard(request.token)
     reactor.requests = [one for one in reactor.requests if one not in lost]  # that goes on by itself
@@ -48,7 +50,11 @@ def _is_loose(reactor: Reactor, token: int, merged: set[int]) -> bool:
     return reactor.plan.tokens[token].parent is None and token not in merged
 
 
-def _is_void(reactor: Reactor, request: Request, token: int, merged: set[int]) -> bool:
+def _is_lost(reactor: Reactor, request: Request, merged: set[int], lost: list[Request]) -> bool:
+    return request.token is None or _is_void(reactor, request, request.token, merged, lost)
+
+
+def _is_void(reactor: Reactor, request: Request, token: int, merged: set[int], lost: list[Request]) -> bool:
     """Whether its token was cut loose, not met, overtaken, or given up by its owner and has more room now."""
     plan, goal = reactor.plan, request.goal
     if _is_loose(reactor, token, merged) or not request.is_kept:
@@ -57,7 +63,7 @@ def _is_void(reactor: Reactor, request: Request, token: int, merged: set[int]) -
         return False
     if goal.state in ("begun", "over"):
         return True
-    asked = {one.token for one in reactor.requests}
+    asked = {one.token for one in reactor.requests if one not in lost}
     line = plan.planned(goal.timeline)
     if any(one not in asked for one in line[: line.index(token)]):
         return True
