@@ -82,7 +82,7 @@ def _same(reactor: Reactor, request: Request, token: int) -> bool:
         (goal.timeline, goal.predicate, goal.arguments) == (mine.timeline, mine.predicate, reactor.plan.values(token))
         and (max(goal.start[0], now), goal.start[1]) == (max(low, now), high)
         and request.is_kept
-        and not request.refused
+        and goal.state not in ("begun", "over")
     )
 
 
