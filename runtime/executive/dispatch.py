@@ -131,7 +131,8 @@ class Dispatch:
             due = self.due_time(line, token, tick)
             if hangs_on_action(bench, token):
                 return due
-            return INFINITY if follows_late(bench, token, tick) else max(due, free_at(bench, token, line.current, tick))
+            free = max(due, free_at(bench, token, line.current, tick))
+            return INFINITY if free < INFINITY and follows_late(bench, token, tick) else free
         # What waits for the end of what is open there is to be asked for when it cannot wait any more.
         before = self.open_now(line)
         token = bench.next_of(line.object_id, line.current)

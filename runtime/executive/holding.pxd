@@ -14,9 +14,7 @@ cdef long long SPAN_CLOCK, SPAN_EXECUTIVE, START, SUPPORT_EDGE, SUPPORT_RESTRICT
 @cython.locals(ends=list, start="long long")
 cpdef bint is_blocked(Workbench bench, long long t, long long current, long long tick) except -1
 
-@cython.locals(
-    e="long long", engine=Engine, i="long long", is_before=bint, met=SparseSet, start="long long", v="long long"
-)
+@cython.locals(engine=Engine, i="long long", start="long long", v="long long")
 cpdef bint follows_late(Workbench bench, long long t, long long tick) except -1
 
 cpdef bint hangs_on_action(Workbench bench, long long t) except -1
@@ -42,8 +40,11 @@ cpdef bint keeps_next(Workbench bench, long long t) except -1
 @cython.locals(engine=Engine)
 cpdef bint is_tied(Workbench bench, long long end, long long start) except -1
 
-@cython.locals(e="long long", ends=list, engine=Engine, first="long long", i="long long", met=SparseSet, v="long long")
+@cython.locals(ends=list, i="long long", v="long long")
 cpdef list _awaited_ends(Workbench bench, long long t, long long current, long long tick)
+
+@cython.locals(e="long long", engine=Engine, i="long long", met=SparseSet, v="long long")
+cpdef void _gather_followed(Workbench bench, long long t, long long tick) except *
 
 @cython.locals(_="long long", engine=Engine, other="long long", plan=Plan, support="long long", v="long long")
 cpdef bint _is_held_back(Workbench bench, long long t, long long current, long long tick) except -1

@@ -24,22 +24,12 @@ def follows_late(bench: Workbench, t: int, tick: int) -> bool:
 
     An owner that begins `t` before that breaks the plan. What must begin when that does, at the latest, cannot wait.
     """
-    engine, met = bench.engine, bench.met
-    start = bench.start(t)
-    met.empty(engine.variables)
-    met.add(start)
-    i = 0
-    while i < met.count:
-        e = engine.out_head[met.items[i]]
-        while e >= 0:
-            v = engine.edge_target[e]
-            if engine.edge_weight[e] <= 0 and not met.has(v) and engine.upper(v) > tick:
-                is_before = _begins_late(bench, v, t) and engine.upper(v) < engine.upper(start)
-                if is_before and not _may_follow(bench, v, start, 0):
-                    return True
-                met.add(v)
-            e = engine.out_next[e]
-        i += 1
+    engine, start = bench.engine, bench.start(t)
+    _gather_followed(bench, t, tick)
+    for i in range(1, bench.met.count):
+        v = bench.met.items[i]
+        if _begins_late(bench, v, t) and engine.upper(v) < engine.upper(start) and not _may_follow(bench, v, start, 0):
+            return True
     return False
 
 
@@ -140,23 +130,29 @@ def is_tied(bench: Workbench, end: int, start: int) -> bool:
 
 def _awaited_ends(bench: Workbench, t: int, current: int, tick: int) -> list[int]:
     """The ends of tokens of other reactors after which edges demand that `t` begins."""
-    engine, met = bench.engine, bench.met
-    first = bench.start(t)
-    met.empty(engine.variables)
-    met.add(first)
+    _gather_followed(bench, t, tick)
     ends = []
+    for i in range(1, bench.met.count):
+        v = bench.met.items[i]
+        if _is_awaited(bench, v, t, current, tick) and not _ends_with(bench, v, t):
+            ends.append(v)
+    return ends
+
+
+def _gather_followed(bench: Workbench, t: int, tick: int) -> None:
+    """Gather the start of `t`, and behind it what edges demand that it follows and may still be to come."""
+    engine, met = bench.engine, bench.met
+    met.empty(engine.variables)
+    met.add(bench.start(t))
     i = 0
     while i < met.count:
         e = engine.out_head[met.items[i]]
         while e >= 0:
             v = engine.edge_target[e]
             if engine.edge_weight[e] <= 0 and not met.has(v) and engine.upper(v) > tick:
-                if _is_awaited(bench, v, t, current, tick) and not _ends_with(bench, v, t):
-                    ends.append(v)
                 met.add(v)
             e = engine.out_next[e]
         i += 1
-    return ends
 
 
 def _is_held_back(bench: Workbench, t: int, current: int, tick: int) -> bool:
