@@ -3,7 +3,7 @@
 import errno
 import hashlib
 import os
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
@@ -169,9 +169,9 @@ def _findings(analyses: Iterable[Analysis], known: Container[_Place]) -> Iterato
                 yield one
 
 
-def _chosen(analysis: Analysis, found: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """What the project of a model wants to hear."""
-    return settings_in(Path(analysis.loaded.root.name).parent).choose(found)
+def _chosen(analysis: Analysis, found: Sequence[Diagnostic]) -> Iterable[Diagnostic]:
+    """What the project of a model wants to hear; its settings are read only where there is something to tell."""
+    return settings_in(Path(analysis.loaded.root.name).parent).choose(found) if found else ()
 
 
 def _analyse_models(agent: AgentConfiguration, callables: Callables, open_text: OpenText) -> dict[str, Analysis]:

@@ -25,6 +25,11 @@ def named_objects(program: Program) -> dict[str, str]:
     return found
 
 
+def made_as(program: Program, name: str) -> NewObject | None:
+    """Where the script makes the object of a name."""
+    return next((one for one in program.script if isinstance(one, NewObject) and one.name == name), None)
+
+
 def resources_of(program: Program) -> list[str]:
     """The names of the resources among the objects of a model."""
     kinds = {code.name for code in program.classes if code.native in RESOURCES}

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from checker.codes import OTHER_NUMBER
 from checker.mission import Mission
+from checker.named_objects import made_as
 from checker.single_values import numbers_of, single_value
 from compiler.program import Constant, NewObject, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note
@@ -25,7 +26,7 @@ def shared_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterato
             if owner is None or (place := (reactor.model, timeline)) in told:
                 continue
             told.add(place)
-            mine, theirs = (_made(programs[one.model], timeline) for one in (reactor, owner))
+            mine, theirs = (made_as(programs[one.model], timeline) for one in (reactor, owner))
             if mine is None or theirs is None or _place(mine.span) == _place(theirs.span):
                 continue
             here, there = (_numbers(programs[one.model], made) for one, made in ((reactor, mine), (owner, theirs)))
@@ -40,10 +41,6 @@ def shared_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterato
                     help=_HELP,
                     notes=(Note("made here by its owner", theirs.span),),
                 )
-
-
-def _made(program: Program, timeline: str) -> NewObject | None:
-    return next((one for one in program.script if isinstance(one, NewObject) and one.name == timeline), None)
 
 
 def _numbers(program: Program, made: NewObject) -> dict[int, float]:

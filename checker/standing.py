@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from checker.influence import line_of
+from checker.named_objects import made_as
 from checker.names import relative_name
 from compiler.instructions import branched_instructions
-from compiler.program import Guard, NewObject, Program
+from compiler.program import Guard, Program
 from runtime.executive.outcome import ConflictElement, ElementKind, SourcePlace
 
 _Lines = dict[tuple[str, int, int], "tuple[Standing, ...]"]
@@ -52,7 +53,7 @@ class StandingLines:
         name = variable.name.rpartition(".")[0]
         if variable.token is not None or not name or program is None:
             return None
-        made = next((one for one in program.script if isinstance(one, NewObject) and one.name == name), None)
+        made = made_as(program, name)
         return None if made is None else self._placed(line_of(made.span))
 
     def _standing(self, program: Program) -> Iterator[tuple[tuple[str, int, int], tuple[Standing, ...]]]:

@@ -218,7 +218,6 @@ def _is_record(kind: Any) -> bool:
     return is_dataclass(kind)
 
 
-@cache
 def _is_made_of_fields(kind: Any) -> bool:
     """Whether a call with the values of its fields, in order, makes an equal value."""
     if not is_dataclass(kind) or hasattr(kind, "__post_init__"):

@@ -53,21 +53,24 @@ def parts_of_limited(outcome: Outcome, children: Container[str]) -> list[LongPar
     Those are left out of which the conflict tells how long they last.
     """
     whole = limited_token(outcome)
-    begun = [tick for _, tick, _, name in heads_of(outcome.events) if name == whole.rpartition(".")[2]]
-    total = outcome.last_tick - begun[-1] if begun else 0
+    begun = _last_begun(outcome, whole)
+    total = outcome.last_tick - begun
     asked = {(one.timeline, one.predicate) for one in single_events(outcome.events) if one.kind is EventKind.REQUEST}
     conflict = failed_by(outcome).conflict
     variables = conflict.variables if conflict is not None else ()
     told = {one.token.predicate.rpartition(".")[2] for one in variables if one.token and one.name == TOKEN_TIMES[2]}
     seen = [one for one in events_on(outcome.events, {timeline for timeline, _ in asked}) if _is_seen(one)]
     found: list[LongPart] = []
-    for number, one in enumerate(seen if total else ()):
-        later = (other.tick for other in seen[number + 1 :] if other.timeline == one.timeline)
-        ticks = next(later, outcome.last_tick) - one.tick
+    until: dict[str, int] = {}  # when each timeline held something else
+    for one in reversed(seen if total else ()):
+        if one.tick < begun:
+            break
+        ticks = until.get(one.timeline, outcome.last_tick) - one.tick
+        until[one.timeline] = one.tick
         is_part = one.predicate in children and (one.timeline, one.predicate) in asked and one.predicate not in told
-        if is_part and one.tick >= begun[-1] and ticks >= _LEAST * total:
-            found.append(LongPart(one.timeline, one.predicate, one.arguments, one.tick, ticks, whole, begun[-1], total))
-    return found
+        if is_part and ticks >= _LEAST * total:
+            found.append(LongPart(one.timeline, one.predicate, one.arguments, one.tick, ticks, whole, begun, total))
+    return found[::-1]
 
 
 def _is_seen(event: Event) -> bool:
@@ -76,9 +79,15 @@ def _is_seen(event: Event) -> bool:
 
 def time_inside(outcome: Outcome) -> dict[str, float]:
     """The share of the time of a token that each predicate held that was asked for, where `limited_token` names one."""
-    predicate = limited_token(outcome).rpartition(".")[2]
-    begun = [tick for _, tick, _, name in heads_of(outcome.events) if name == predicate]
-    return _shares(outcome, begun[-1]) if begun and begun[-1] < outcome.last_tick else {}
+    begun = _last_begun(outcome, limited_token(outcome))
+    return _shares(outcome, begun) if begun < outcome.last_tick else {}
+
+
+def _last_begun(outcome: Outcome, predicate: str) -> int:
+    """The tick at which a predicate was last observed to begin; the last one of the mission where it never was."""
+    name = predicate.rpartition(".")[2]
+    ticks = [tick for _, tick, _, seen in heads_of(outcome.events) if seen == name]
+    return ticks[-1] if ticks else outcome.last_tick
 
 
 def limited_token(outcome: Outcome) -> str:

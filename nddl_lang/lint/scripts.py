@@ -170,13 +170,12 @@ def _unclosed(whole: Whole, first: Part) -> Iterator[Diagnostic]:
 
 def unclosed_in_mission(analysis: Analysis) -> tuple[Diagnostic, ...]:
     """Tell of a model without goals of its own that a mission flies, where rules leave open which object is meant."""
-    parts = [Part(node, analysis.by_statement[node], analysis.dialect) for node in analysis.statements]
-    statements = [each.node for each in parts]
     if any(
         isinstance(node, GoalStatement) or (isinstance(node, MethodCall) and node.method.name == "close")
-        for node in statements
+        for node in analysis.statements
     ):
         return ()  # with goals of its own `lint_script` says it
+    parts = [Part(node, analysis.by_statement[node], analysis.dialect) for node in analysis.statements]
     makers = [each.node for each in parts if isinstance(each.node, VariableDecl | Assignment) and each.all(NewExpr)]
     choices = [variable for each in parts if isinstance(each.node, RuleDecl) for variable in _chosen_in(each)]
     if not makers or not choices:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from nddl_lang.semantics.codes import CLASS_AS_VALUE
-from nddl_lang.semantics.schema import Predicate
+from nddl_lang.semantics.owned_names import is_of, labels_of, only_one
 from nddl_lang.semantics.scope import Context, Scope
 from nddl_lang.syntax.nodes import Identifier
 from nddl_lang.text.diagnostic import Edit, Fix
@@ -19,10 +19,9 @@ def complain_class(context: Context, scope: Scope, parts: Sequence[Identifier]) 
     head, last = parts[0], parts[-1]
     if len(parts) > 2 and (written := [*_of_tokens(context, scope, parts)]):
         at = head.span.to(last.span)
-        fixes = tuple(Fix(f"write `{each}`", (Edit(at, each),), safe=False) for each in written if len(written) == 1)
         named = " or ".join(f"`{each}`" for each in written)
         help_ = f"a token of `{head.name}.{parts[1].name}` is known by its name: {named}"
-        context.complain(CLASS_AS_VALUE.at(head.span, help=help_, fixes=fixes, name=head.name))
+        context.complain(CLASS_AS_VALUE.at(head.span, help=help_, fixes=only_one(at, written), name=head.name))
         return
     if len(parts) > 2 and (asked := scope.unnamed(parts[1].name)) is not None:
         after = Span(asked.span.anchor, asked.span.end, asked.span.end)
@@ -46,15 +45,8 @@ def complain_class(context: Context, scope: Scope, parts: Sequence[Identifier]) 
 
 def _of_tokens(context: Context, scope: Scope, parts: Sequence[Identifier]) -> Iterator[str]:
     """What `Class.predicate.x` is called of the tokens of that predicate that a block sees."""
-
-    def is_meant(predicate: Predicate) -> bool:
-        is_kind = context.symbols.is_subclass(predicate.class_name, parts[0].name)
-        return predicate.name == parts[1].name and is_kind
-
+    owner, predicate = parts[0].name, parts[1].name
     rest = ".".join(part.name for part in parts[2:])
-    for name in dict.fromkeys(scope.visible_labels()):
-        label = scope.find_label(name)
-        if label is not None and is_meant(label.predicate):
-            yield f"{name}.{rest}"
-    if scope.own is not None and is_meant(scope.own.predicate):
+    yield from (f"{label.name}.{rest}" for label in labels_of(context, scope, owner, predicate))
+    if scope.own is not None and is_of(context, scope.own.predicate, owner, predicate):
         yield rest

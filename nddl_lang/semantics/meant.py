@@ -3,6 +3,7 @@
 import re
 
 from nddl_lang.semantics.natives import builtin_type
+from nddl_lang.semantics.owned_names import only_one
 from nddl_lang.semantics.schema import Kind, TokenReference, Type
 from nddl_lang.semantics.scope import Context
 from nddl_lang.semantics.types import NUMBERS, comparable
@@ -73,8 +74,8 @@ def member_meant(
             or [one for one in alike if one.type.kind in NUMBERS]
         )
     texts = [f"{side.span.text}.{one.name}" for one in found[:_MOST_MEMBERS]]
-    fixes = tuple(Fix(f"write `{text}`", (Edit(side.span, text),), safe=False) for text in texts if len(texts) == 1)
-    return f"did you mean {' or '.join(f'`{text}`' for text in texts)}?" if texts else None, fixes
+    advice = f"did you mean {' or '.join(f'`{text}`' for text in texts)}?" if texts else None
+    return advice, only_one(side.span, texts)
 
 
 def number_meant(side: Expr, other: Type) -> tuple[Fix, ...]:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from nddl_lang.semantics.schema import Kind, Predicate
+from nddl_lang.semantics.schema import Kind, Label, Predicate
 from nddl_lang.semantics.scope import Context, Scope
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 from nddl_lang.text.source import Span
@@ -23,9 +23,25 @@ def others_with(context: Context, scope: Scope, name: str, compared: str | None)
 
 def owned_by_others(complaint: Diagnostic, at: Span, others: Sequence[str]) -> Diagnostic:
     """The complaint that something lacks a variable, with who has it."""
-    fixes = tuple(Fix(f"write `{each}`", (Edit(at, each),), safe=False) for each in others if len(others) == 1)
     help_ = f"did you mean {' or '.join(f'`{each}`' for each in others)}?"
-    return replace(complaint, help=help_, fixes=fixes)
+    return replace(complaint, help=help_, fixes=only_one(at, others))
+
+
+def only_one(at: Span, texts: Sequence[str]) -> tuple[Fix, ...]:
+    """The fix that writes what is meant, where one text alone may be."""
+    return tuple(Fix(f"write `{text}`", (Edit(at, text),), safe=False) for text in texts if len(texts) == 1)
+
+
+def labels_of(context: Context, scope: Scope, class_name: str | None, predicate: str) -> list[Label]:
+    """The tokens that a block sees of a predicate of that name, of a class or of any."""
+    labels = [scope.find_label(name) for name in dict.fromkeys(scope.visible_labels())]
+    return [one for one in labels if one is not None and is_of(context, one.predicate, class_name, predicate)]
+
+
+def is_of(context: Context, predicate: Predicate, class_name: str | None, name: str) -> bool:
+    """Whether a predicate has a name, in a class or in any."""
+    is_kind = class_name is None or context.symbols.is_subclass(predicate.class_name, class_name)
+    return predicate.name == name and is_kind
 
 
 def declared_note(predicate: Predicate) -> tuple[Note, ...]:

@@ -28,6 +28,7 @@ from nddl_lang.semantics.names import (
     resolve_dotted,
     suggest_name,
 )
+from nddl_lang.semantics.owned_names import labels_of, only_one
 from nddl_lang.semantics.relations import REFUSED_RELATIONS, RELATIONS, RelationRow
 from nddl_lang.semantics.schema import (
     Class,
@@ -276,8 +277,8 @@ def _check_existing(context: Context, scope: Scope, node: Relation, path: PathEx
     if len(path.parts) > 1:
         alike = _labels_of(context, scope, path, node)
         named = f": {' or '.join(f'`{each}`' for each in alike)}" if alike else ""
-        fixes = tuple(Fix(f"write `{each}`", (Edit(path.span, each),), safe=False) for each in alike if len(alike) == 1)
         help_ = f"a token is known by a single name{named}"
+        fixes = only_one(path.span, alike)
         context.complain(UNKNOWN_TOKEN.at(path.span, help=help_, fixes=fixes, name=path.span.text))
         return
     label = _find_token(context, scope, path.parts[0], node)
@@ -289,12 +290,9 @@ def _check_existing(context: Context, scope: Scope, node: Relation, path: PathEx
 def _labels_of(context: Context, scope: Scope, path: PathExpr, node: Relation) -> list[str]:
     """The tokens of a rule that are of the predicate which `path` names, but for the other end of a relation."""
     *prefix, name = [part.name for part in path.parts]
-    labels = [scope.find_label(each) for each in dict.fromkeys(scope.visible_labels()) if each not in _linked(node)]
-    of_name = [one for one in labels if one is not None and one.predicate.name == name]
     is_class = len(prefix) == 1 and context.symbols.find_class(prefix[0]) is not None
-    return [
-        one.name for one in of_name if not is_class or context.symbols.is_subclass(one.predicate.class_name, prefix[0])
-    ]
+    found = labels_of(context, scope, prefix[0] if is_class else None, name)
+    return [one.name for one in found if one.name not in _linked(node)]
 
 
 def _find_target(context: Context, scope: Scope, path: PathExpr) -> tuple[Predicate, Reference | str] | None:

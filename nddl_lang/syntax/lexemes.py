@@ -74,7 +74,7 @@ _TYPESET = {
     "&": "&&",
     "|": "||",
 }
-_LONGEST_INDENT = 200
+LONGEST_INDENT = 200  # characters before the first thing in a line that are looked at
 _BLANKS = ("Zs", "Cf", "Cc")  # categories of Unicode
 _DIRECTIVE_HELP = {
     "#define": "declare a variable: `int NAME = 5;`",
@@ -270,7 +270,7 @@ def read_other(piece: Piece, start: int, word: str) -> str | None:
     help_text = _HELP.get(word)
     at = piece.anchor.offset + start
     if word in _FIRST_HELP:
-        before = piece.anchor.source.text[max(0, at - _LONGEST_INDENT) : at]
+        before = piece.anchor.source.text[max(0, at - LONGEST_INDENT) : at]
         if not before[before.rfind("\n") + 1 :].strip():
             help_text = _FIRST_HELP[word]
     if word == "%" and (share := _per_cent(piece, at)) is not None:

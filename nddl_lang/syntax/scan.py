@@ -33,6 +33,7 @@ from nddl_lang.syntax.codes import (
     UNDECODABLE,
 )
 from nddl_lang.syntax.lexemes import (
+    LONGEST_INDENT,
     misspelt_include,
     read_directive,
     read_number,
@@ -76,7 +77,6 @@ _BRACKETS = frozenset("{}()[];")
 _WATCHED_SIGNS = _BRACKETS | {"::", ":", "#include"}
 _AFTER_HEAD = (["{"], ["="], ["-"], [":"])  # of a rule, where no statement begins
 _BEYOND = 1 << 62
-_LONGEST_INDENT = 200
 
 
 class Scanner:
@@ -196,7 +196,7 @@ class Scanner:
     def _indent(self, start: int) -> int:
         """The number of blanks before `start` in its line; below 0 if more stands there, or another piece."""
         text = self._source.text
-        line = text.rfind("\n", max(self._base, start - _LONGEST_INDENT), start) + 1
+        line = text.rfind("\n", max(self._base, start - LONGEST_INDENT), start) + 1
         if (line == 0 and self._base > 0) or text[line:start].strip(" \t\r\f\ufeff"):
             return -1
         return start - line
