@@ -19,6 +19,7 @@ from nddlc.goals import goals_of
 from nddlc.inputs import Unusable, configured, read_by, readable
 from nddlc.trust import library_for, trust_option
 from runtime.constraints.domains.tags import HALF_INF, INF
+from runtime.executive.planning_table import leaving_times
 from runtime.limits import bounded, half_of_the_machine
 from runtime.loading import Loaded, as_data, load
 from runtime.plan.database import PlanDatabase
@@ -112,6 +113,8 @@ def command(
     elif reactor is not None:
         raise Unusable("--reactor names a reactor of a mission file (.toml, or T-REX's .xml or .cfg)")
     configuration = _configuration(config)
+    if text is not None:
+        configuration = leaving_times(configuration)
     if horizon is not None and horizon[0] >= horizon[1]:
         raise Unusable(f"the horizon from {horizon[0]} to {horizon[1]} is empty")
     if horizon is not None:

@@ -74,10 +74,7 @@ def within_window(configuration: Configuration, has_resources: bool) -> Configur
             filters = tuple([one for one in filters if not _is_of_tokens(one)])
         elif not each.for_tokens:
             filters = (*common, *filters)
-        if each.component == "UnboundVariableManager":
-            named = {handler.match.variable for handler in each.handlers}
-            filters += tuple([FlawFilter(match=match) for match in _TIMES if match.variable not in named])
-        managers.append(replace(each, filters=filters))
+        managers.append(_without_times(replace(each, filters=filters)))
     if all(each.component != _ORDER for each in managers):
         usual = next(one for one in default_configuration().managers if one.component == _ORDER)
         managers.insert(0, replace(usual, handlers=()))  # its filters leave resources alone
@@ -86,6 +83,20 @@ def within_window(configuration: Configuration, has_resources: bool) -> Configur
     clock = FlawFilter(match=Match(variable="AGENT_CLOCK"))
     left = [one for one in configuration.filters if one.component != "HorizonFilter" and not _is_of_tokens(one)]
     return replace(configuration, filters=(*left, clock), managers=tuple(managers))
+
+
+def leaving_times(configuration: Configuration) -> Configuration:
+    """The table of a reactor's solver for a plan of its goals beforehand, which leaves times to the execution too."""
+    return replace(configuration, managers=tuple([_without_times(each) for each in configuration.managers]))
+
+
+def _without_times(manager: FlawManager) -> FlawManager:
+    """A manager that decides of no times but of those that one of its handlers names."""
+    if manager.component != "UnboundVariableManager":
+        return manager
+    named = {handler.match.variable for handler in manager.handlers}
+    times = tuple([FlawFilter(match=match) for match in _TIMES if match.variable not in named])
+    return replace(manager, filters=(*manager.filters, *times))
 
 
 def _is_of_tokens(one: FlawFilter) -> bool:

@@ -227,6 +227,7 @@ def test_taking_the_last_value_of_a_bool_blames_what_fixed_it() -> None:
     assert Scratch(engine).refutes(engine.explain())
 
 
+@pytest.mark.once
 def test_an_explanation_is_shrunk_no_further_when_the_time_of_the_mission_is_over() -> None:
     engine = Engine()
     x = [engine.new_interval(tags.KIND_INT, 0, 900, 1, -1) for _ in range(300)]

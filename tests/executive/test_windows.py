@@ -46,8 +46,10 @@ def test_the_order_of_timelines_is_nothing_to_a_command_that_waits(world: str) -
 
 
 @pytest.mark.parametrize("relation", ["contained_by", "starts_during"])
-@pytest.mark.parametrize("latency", [0, 1, 3])
-@pytest.mark.parametrize("opened", [2, 9])
+@pytest.mark.parametrize(
+    "latency", [pytest.param(0, marks=pytest.mark.once), 1, pytest.param(3, marks=pytest.mark.once)]
+)
+@pytest.mark.parametrize("opened", [pytest.param(2, marks=pytest.mark.once), 9])
 def test_a_command_ahead_of_time_is_judged_by_what_holds_when_it_may_begin(
     opened: int, latency: int, relation: str
 ) -> None:

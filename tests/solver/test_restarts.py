@@ -53,7 +53,7 @@ def test_restarts_change_no_verdict_of_variables(tmp_path: Path) -> None:
     assert restarts
 
 
-@pytest.mark.parametrize(("feasible", "wanted"), [(True, PLAN), (False, EXHAUSTED)])
+@pytest.mark.parametrize(("feasible", "wanted"), [(True, PLAN), pytest.param(False, EXHAUSTED, marks=pytest.mark.once)])
 def test_what_is_hard_is_found_behind_what_is_easy(tmp_path: Path, feasible: bool, wanted: int) -> None:
     text = model("knot", 6, feasible)
     solver = solver_for(tmp_path, text)

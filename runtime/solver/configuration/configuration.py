@@ -1,6 +1,7 @@
 """Solver configuration as frozen data: which flaws are mended, in which order, and how."""
 
 from dataclasses import dataclass, fields, replace
+from functools import cache
 
 from runtime.solver.tags import WORST_PRIORITY
 
@@ -100,6 +101,7 @@ def with_resources(configuration: Configuration) -> Configuration:
     return replace(configuration, managers=tuple(managers))
 
 
+@cache
 def default_configuration() -> Configuration:
     """What a solver does that is told nothing: as EUROPA's own runner with the configuration it ships."""
     undecided = [FlawFilter(match=Match(variable=name)) for name in ("start", "end", "duration", "object")]
