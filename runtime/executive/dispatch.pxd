@@ -1,7 +1,7 @@
 # The C types of `dispatch.py`.
 
 cimport cython
-from runtime.executive.holding cimport due_start, free_at, hangs_on_action, is_blocked, is_tied, keeps_next
+from runtime.executive.holding cimport begin_together, due_start, follows_late, free_at, hangs_on_action, is_tied, keeps_next
 from runtime.executive.timelines cimport TimelineState
 from runtime.executive.view cimport whole_bound
 from runtime.executive.workbench cimport Workbench
@@ -37,11 +37,20 @@ cdef class Dispatch:
 
     cpdef bint _is_due(self, TimelineState line, long long token, long long tick, long long final_tick) except -1
 
+    @cython.locals(free=double, mate="long long", other=TimelineState)
+    cpdef double _free_at(self, TimelineState line, long long token, long long tick) except? -1.0
+
+    @cython.locals(bench=Workbench, free=double)
+    cpdef double _freed_at(self, TimelineState line, long long token, long long tick) except? -1.0
+
     @cython.locals(time=double)
     cpdef double due_time(self, TimelineState line, long long token, long long tick) except? -1.0
 
-    @cython.locals(before="long long", bench=Workbench, token="long long")
+    @cython.locals(token="long long")
     cpdef double next_due(self, TimelineState line, long long tick) except? -1.0
+
+    @cython.locals(before="long long", bench=Workbench, token="long long")
+    cpdef double _waits_until(self, TimelineState line, long long tick) except? -1.0
 
     cpdef long long open_now(self, TimelineState line) except? -1
 
@@ -56,8 +65,11 @@ cdef class Dispatch:
 
     cpdef list open_requests(self)
 
-    @cython.locals(numbers=list, token="long long")
+    @cython.locals(apart=list, numbers=list, token="long long")
     cpdef list recalls(self, long long tick)
+
+    @cython.locals(apart=list, bench=Workbench, line=TimelineState, mate="long long", token="long long")
+    cpdef list _come_apart(self, long long tick)
 
     @cython.locals(line=TimelineState, token="long long")
     cpdef bint _hand_on(self, request, long long key, long long tick) except -1

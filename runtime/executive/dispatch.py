@@ -1,6 +1,14 @@
 """Decide which planned tokens are asked of the owners of their timelines, and when requests are taken back."""
 
-from runtime.executive.holding import due_start, follows_late, free_at, hangs_on_action, is_blocked, is_tied, keeps_next
+from runtime.executive.holding import (
+    begin_together,
+    due_start,
+    follows_late,
+    free_at,
+    hangs_on_action,
+    is_tied,
+    keeps_next,
+)
 from runtime.executive.messages import Request
 from runtime.executive.outcome import EventKind, TimeBounds
 from runtime.executive.timelines import NOTHING, TimelineState
@@ -109,10 +117,35 @@ class Dispatch:
         """Whether a token is to be asked for now."""
         if self.bench.lower(self.bench.start(token)) >= final_tick or self.due_time(line, token, tick) > tick:
             return False
+        return self._free_at(line, token, tick) <= tick
+
+    def _free_at(self, line: TimelineState, token: int, tick: int) -> float:
+        """The first tick at which nothing holds back `token`, nor what is to be asked for with it, if nothing happens.
+
+        Two commands for one tick are given together: if one owner began sooner, both would be asked for in vain.
+        """
+        free = self._freed_at(line, token, tick)
+        for other in self.timelines:
+            if free <= tick and other is not line and not other.is_internal and self.takes_requests(other):
+                mate = self.bench.next_of(other.object_id, other.current)
+                while mate != NOTHING and not begin_together(self.bench, token, mate):
+                    mate = self.bench.following(mate)
+                if mate != NOTHING and self.is_refused(mate):
+                    return INFINITY
+                if mate != NOTHING and not self.is_asked(mate):
+                    free = self._freed_at(other, mate, tick)
+        return free
+
+    def _freed_at(self, line: TimelineState, token: int, tick: int) -> float:
+        """The first tick at which nothing holds `token` back, if nothing happens until then."""
+        bench = self.bench
         # What an action needs is not waited with: often the world changes by that alone (T-REX 1.8).
-        if hangs_on_action(self.bench, token):
-            return True
-        return not is_blocked(self.bench, token, line.current, tick) and not follows_late(self.bench, token, tick)
+        if hangs_on_action(bench, token):
+            return tick
+        if token != self.next_request(line):
+            return self._waits_until(line, tick)
+        free = free_at(bench, token, line.current, tick)
+        return INFINITY if free < INFINITY and follows_late(bench, token, tick) else free
 
     def due_time(self, line: TimelineState, token: int, tick: int) -> float:
         """The tick at which the owner is to be asked for a token (T-REX 1.8).
@@ -125,16 +158,13 @@ class Dispatch:
 
     def next_due(self, line: TimelineState, tick: int) -> float:
         """The next tick at which something may have to be asked for on a timeline, if nothing happens until then."""
-        bench = self.bench
-        token = self.next_request(line)
-        if token != NOTHING:
-            due = self.due_time(line, token, tick)
-            if hangs_on_action(bench, token):
-                return due
-            free = max(due, free_at(bench, token, line.current, tick))
-            return INFINITY if free < INFINITY and follows_late(bench, token, tick) else free
-        # What waits for the end of what is open there is to be asked for when it cannot wait any more.
-        before = self.open_now(line)
+        if (token := self.next_request(line)) != NOTHING:
+            return max(self.due_time(line, token, tick), self._free_at(line, token, tick))
+        return self._waits_until(line, tick)
+
+    def _waits_until(self, line: TimelineState, tick: int) -> float:
+        """The tick at which what waits for the end of what is open on a timeline cannot wait any more."""
+        bench, before = self.bench, self.open_now(line)
         token = bench.next_of(line.object_id, line.current)
         while token != NOTHING:
             if before != NOTHING and not is_tied(bench, bench.end(before), bench.start(token)):
@@ -205,13 +235,13 @@ class Dispatch:
 
     def recalls(self, tick: int) -> list[int]:
         """Numbers of the requests that the plan does not wait for any more, begun or not; what is over is forgotten."""
-        numbers = []
+        numbers, apart = [], self._come_apart(tick)
         for key, request in list(self.sent.items()):
             token = self.sent_tokens[key]
             is_done = request.number in self.over
             if not self.bench.is_alive(token, key) and self._hand_on(request, key, tick):
                 continue
-            if not is_done and self._is_void(request, token, key, tick):
+            if not is_done and (key in apart or self._is_void(request, token, key, tick)):
                 self.trace.record(
                     EventKind.RECALL,
                     self.name,
@@ -232,6 +262,28 @@ class Dispatch:
                 self.bench.rows.set_flag(token, FLAG_SENT, False)
         self.is_repaired = False
         return numbers
+
+    def _come_apart(self, tick: int) -> list[int]:
+        """The keys of tokens that still wait for what runs, when another, which is to begin with them, has begun alone.
+
+        What has gone on so holds back what is planned next: asked for at once they would only come apart again.
+        """
+        bench, apart = self.bench, []
+        for key, request in self.sent.items():
+            token = self.sent_tokens[key]
+            if request.number not in self.begun or not bench.is_alive(token, key) or bench.is_started(token, tick):
+                continue
+            for line in self.timelines:
+                if line.current == NOTHING or bench.is_met_by(bench.predicate_of(line.current), line.default):
+                    continue
+                mate = bench.next_of(line.object_id, line.current)
+                other = self.sent.get(bench.key(mate)) if mate != NOTHING else None
+                if other is None or other.number in self.begun or other.start[0] > tick:
+                    continue
+                if bench.is_active(token) and begin_together(bench, token, mate):
+                    bench.lasting[line.object_id] = bench.key(line.current)
+                    apart.append(bench.key(mate))
+        return apart
 
     def _hand_on(self, request: Request, key: int, tick: int) -> bool:
         """Have a request stand for what the plan wants in just its place; what leaves it in a repair is recalled."""

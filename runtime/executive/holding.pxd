@@ -40,6 +40,9 @@ cpdef bint keeps_next(Workbench bench, long long t) except -1
 @cython.locals(engine=Engine)
 cpdef bint is_tied(Workbench bench, long long end, long long start) except -1
 
+@cython.locals(engine=Engine, start="long long", then="long long")
+cpdef bint begin_together(Workbench bench, long long t, long long other) except -1
+
 @cython.locals(ends=list, i="long long", v="long long")
 cpdef list _awaited_ends(Workbench bench, long long t, long long current, long long tick)
 
@@ -55,10 +58,10 @@ cpdef bint _begins_late(Workbench bench, long long v, long long t) except -1
 @cython.locals(other="long long", plan=Plan)
 cpdef bint _is_awaited(Workbench bench, long long v, long long t, long long current, long long tick) except -1
 
-@cython.locals(
-    after="long long", begins="long long", e="long long", ended="long long", engine=Engine, i="long long", met=SparseSet
-)
+@cython.locals(after="long long", ended="long long")
 cpdef bint _ends_with(Workbench bench, long long v, long long t) except -1
+
+cpdef bint _is_same(Workbench bench, long long v, long long w) except -1
 
 @cython.locals(holds=bint, mark="long long")
 cpdef bint _may_follow(Workbench bench, long long v, long long w, long long by) except -1

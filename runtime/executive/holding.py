@@ -106,12 +106,12 @@ def free_at(bench: Workbench, t: int, current: int, tick: int) -> float:
 
 
 def keeps_next(bench: Workbench, t: int) -> bool:
-    """Whether what comes next waits for the end of `t`, which was asked for.
+    """Whether what comes next waits for the end of `t`, which was asked for, or has gone on when that could not wait.
 
     What holds there by default ends when something else begins, also where it was asked for itself.
     """
     rows, other = bench.rows, bench.rows.merged[t]
-    is_asked = rows.key[t] in bench.asked
+    is_asked = rows.key[t] in bench.asked or bench.lasting.get(bench.object_of(t), NONE) == rows.key[t]
     while other >= 0 and not is_asked:  # after a repair what was asked for is found in what its owner has begun
         is_asked = rows.key[other] in bench.asked
         other = rows.merged_next[other]
@@ -126,6 +126,14 @@ def is_tied(bench: Workbench, end: int, start: int) -> bool:
     if engine.lower(start) != engine.lower(end) or engine.upper(start) != engine.upper(end):
         return False
     return not _may_follow(bench, start, end, 1)
+
+
+def begin_together(bench: Workbench, t: int, other: int) -> bool:
+    """Whether the plan has two tokens begin at one tick, which is still open."""
+    engine, start, then = bench.engine, bench.start(t), bench.start(other)
+    if engine.lower(start) == engine.upper(start) or engine.lower(start) != engine.lower(then):
+        return False
+    return engine.upper(start) == engine.upper(then) and _is_same(bench, start, then)
 
 
 def _awaited_ends(bench: Workbench, t: int, current: int, tick: int) -> list[int]:
@@ -205,18 +213,12 @@ def _ends_with(bench: Workbench, v: int, t: int) -> bool:
     ended = bench.stands_for(bench.plan.variable_owner[v])
     if (after := bench.following(ended)) < 0 or keeps_next(bench, ended):
         return False
-    engine, met, begins = bench.engine, bench.met_behind, bench.start(t)
-    met.empty(engine.variables)
-    met.add(bench.start(after))
-    i = 0
-    while i < met.count and not met.has(begins):
-        e = engine.out_head[met.items[i]]
-        while e >= 0:
-            if engine.edge_weight[e] <= 0:
-                met.add(engine.edge_target[e])
-            e = engine.out_next[e]
-        i += 1
-    return met.has(begins) and not _may_follow(bench, bench.start(after), begins, 1)
+    return _is_same(bench, bench.start(t), bench.start(after))
+
+
+def _is_same(bench: Workbench, v: int, w: int) -> bool:
+    """Whether the plan has two times at one tick."""
+    return not _may_follow(bench, v, w, 1) and not _may_follow(bench, w, v, 1)
 
 
 def _may_follow(bench: Workbench, v: int, w: int, by: int) -> bool:

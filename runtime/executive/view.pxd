@@ -26,7 +26,7 @@ cdef class PlanView:
     cdef public set external_objects, internal_objects, late_objects
     cdef public Recorder recorder
     cdef public long long[::1] kept_key
-    cdef public SparseSet met, met_behind
+    cdef public SparseSet met
 
     @cython.locals(o="long long")
     cpdef TimelineState timeline(self, str name, bint is_internal)

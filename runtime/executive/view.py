@@ -66,7 +66,7 @@ class PlanView:
         self.recorder = Recorder(database, name)
         self.kept_key = array("q", [NONE]) * 64  # by row: the key of a token that is over and stays without its rules
         self.internal_objects: set[int] = set()
-        self.met, self.met_behind = SparseSet(256), SparseSet(256)  # the variables that a walk has met, until the next
+        self.met = SparseSet(256)  # the variables that a walk has met, until the next
         self.late_objects: set[int] = set()  # timelines on which what nobody asked for begins as late as it may
 
     # ---- names ----

@@ -19,7 +19,7 @@ cdef double INFINITY, inf
 
 cdef class Workbench(PlanView):
     cdef public tuple goals
-    cdef public dict defaults, goal_numbers
+    cdef public dict defaults, goal_numbers, lasting
     cdef public Leaving leaving
 
     cpdef long long mark(self) except? -1

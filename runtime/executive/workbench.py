@@ -42,6 +42,7 @@ class Workbench(PlanView):
         self.goals: tuple[GoalConfiguration, ...] = ()
         self.goal_numbers: dict[int, int] = {}
         self.defaults: dict[int, int] = {}  # default predicates, by timeline
+        self.lasting: dict[int, int] = {}  # keys of what has gone on against a command, by timeline
         self.leaving = Leaving()
 
     # ---- going back ----

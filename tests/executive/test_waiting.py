@@ -97,3 +97,60 @@ def test_nothing_is_asked_for_a_goal_behind_what_begins_as_late_as_it_may() -> N
     assert lines(outcome, "request")[3:] == ["0 request boss dev On", "36 request boss dev On"]
     assert [line for line in history(outcome, "gate") if "Ajar" in line] == ["36 Ajar"]
     assert history(outcome, "dev") == ["0 Off", "3 On", "11 Off", "50 On", "58 Off"]
+
+
+PARTS = """
+class Arm extends AgentTimeline { predicate Rest { } predicate Act { int n; } Arm(Mode m) { super(m, "Rest"); } }
+class Valve extends AgentTimeline { predicate Shut { } predicate Open { } Valve(Mode m) { super(m, "Shut"); } }
+class Task extends AgentTimeline { predicate Idle { } predicate Do { } Task(Mode m) { super(m, "Idle"); } }
+class Side extends AgentTimeline { predicate Idle { } predicate Run { } Side(Mode m) { super(m, "Idle"); } }
+"""
+TOGETHER = {
+    "relations": "starts(Arm.Act act); act.n == 2; starts(Valve.Open open);",
+    "lengths": "contains(Arm.Act act); act.n == 2; act.duration == 6; act.end <= start + 6; starts(Valve.Open open);",
+}
+
+
+def given_together(rule: str, goal: GoalConfiguration, until: int = 25) -> list[str]:
+    """Requests and recalls of a planner whose task begins as two owners do, one of which is busy from tick 4 to 10."""
+    wants = f"Task::Do {{ {rule} }} Side::Run {{ contains(Arm.Act act); act.n == 1; }}"
+    own = "Task task = new Task(Internal); Side side = new Side(Internal);"
+    valve, used = (
+        "Valve valve = new Valve(Internal);",
+        "Arm arm = new Arm(External); Valve valve = new Valve(External);",
+    )
+    outcome = fly(
+        planner("arms", f"{PARTS} Arm::Act {{ duration == 6; }} Arm arm = new Arm(Internal); close();", "arm"),
+        planner("taps", f"{PARTS} Valve::Open {{ duration == 3; }} {valve} close();", "valve"),
+        planner("boss", f"{PARTS} {wants} {own} {used} close();", "task side", "valve arm"),
+        until=40,
+        goals=(goal, GoalConfiguration("task", "Do", at=5, start=(6, until))),
+    )
+    return [line for line in lines(outcome, "request", "recall") if " boss " in line] + history(outcome, "task")[1:2]
+
+
+@pytest.mark.parametrize("rule", TOGETHER)
+def test_commands_for_one_tick_wait_for_what_holds_back_one_of_them(rule: str) -> None:
+    told = given_together(TOGETHER[rule], GoalConfiguration("side", "Run", start=(4, 4)))
+    assert told[1:] == ["10 request boss valve Open", "10 request boss arm Act(n=2)", "11 Do"]
+
+
+@pytest.mark.parametrize("rule", TOGETHER)
+def test_commands_that_come_apart_are_asked_for_again_when_what_went_on_is_over(rule: str) -> None:
+    told = given_together(TOGETHER[rule], GoalConfiguration("arm", "Act", start=(4, 4), parameters=(("n", 1),)))
+    assert told == [
+        "5 request boss valve Open",
+        "5 request boss arm Act(n=2)",
+        "6 recall boss valve Open",
+        "6 recall boss arm Act(n=2)",
+        "10 request boss valve Open",
+        "10 request boss arm Act(n=2)",
+        "11 Do",
+    ]
+
+
+def test_a_command_is_not_given_when_the_owner_of_one_that_goes_with_it_has_given_that_up() -> None:
+    busy = GoalConfiguration("arm", "Act", start=(4, 4), parameters=(("n", 1),))
+    told = given_together(TOGETHER["relations"], busy, until=9)
+    assert told[:3] == ["5 request boss valve Open", "5 request boss arm Act(n=2)", "6 recall boss valve Open"]
+    assert "6 request boss valve Open" not in told

@@ -15,7 +15,7 @@ def dispatch(reactor: Reactor) -> tuple[list[Request], list[Request]]:
         if request.token is None and request.is_kept and request.goal.state == "begun" and here in merged:
             request.token = here  # what runs has found it again
     reactor.requests = [one for one in reactor.requests if not _is_over(reactor, one)]
-    lost: list[Request] = []
+    lost = _come_apart(reactor)
     while more := [one for one in reactor.requests if one not in lost and _is_lost(reactor, one, merged, lost)]:
         lost += more  # and what comes behind what is asked for anew
     for request in lost:
@@ -104,7 +104,7 @@ def _goal(reactor: Reactor, number: int) -> Goal:
 def _held(reactor: Reactor, timeline: str, place: int, number: int) -> bool:
     plan, owner = reactor.plan, reactor.owners[timeline]
     token, net = plan.tokens[number], plan.net
-    low, high = plan.window(number)
+    low = plan.window(number)[0]
     for other in plan.tokens:
         if plan.state[other.number] == "active" and other.timeline in reactor.part.internal:
             if other.timeline in reactor.part.early or plan.goals_of[other.number]:
@@ -117,38 +117,85 @@ def _held(reactor: Reactor, timeline: str, place: int, number: int) -> bool:
         return True
     if low >= reactor.description.final:
         return True
-    if high <= reactor.tick + 1:
+    return _is_blocked(reactor, timeline, place, number) or any(
+        _is_blocked(reactor, *mate) if request is None else request.refused for mate, request in _mates(reactor, number)
+    )
+
+
+def _mates(reactor: Reactor, number: int) -> list[tuple[tuple[str, int, int], Request | None]]:
+    """What is to begin on other timelines at its tick, which is still open: its timeline and place, and its request."""
+    plan, found = reactor.plan, []
+    for timeline in reactor.part.external:
+        line = plan.sequence.get(timeline, [])
+        for place, one in enumerate(line):
+            if plan.state[one] != "active" or plan.tokens[number].timeline == timeline:
+                continue
+            start, then = plan.tokens[number].start, plan.tokens[one].start
+            is_open = plan.window(number)[0] < plan.window(number)[1] and reactor.owners[timeline].lookahead > 0
+            if is_open and plan.net.distance(start, then) == 0 == plan.net.distance(then, start):
+                request = next((each for each in reactor.requests if each.token == one), None)
+                found.append(((timeline, place, one), request))
+    return found
+
+
+def _come_apart(reactor: Reactor) -> list[Request]:
+    """What waits for something that runs, when another, which is to begin with it, has begun without it."""
+    plan, found = reactor.plan, []
+    for request in reactor.requests:
+        token = request.token
+        if token is None or plan.state[token] != "active" or request.goal.state not in ("begun", "over"):
+            continue
+        for (timeline, place, _), mate in _mates(reactor, token):
+            here = plan.current.get(timeline)
+            if mate is None or here is None or mate.goal.state == "begun" or mate.goal.start[0] > reactor.tick:
+                continue
+            is_default = plan.tokens[here].predicate == reactor.description.kind(timeline).predicates[0][0]
+            if plan.sequence[timeline][place - 1] == here and not is_default:
+                reactor.lasting[timeline] = here
+                found.append(mate)
+    return found
+
+
+def _is_blocked(reactor: Reactor, timeline: str, place: int, number: int) -> bool:
+    """Whether something that is still to be seen, or that begins as late as it may, comes first."""
+    plan, token, net = reactor.plan, reactor.plan.tokens[number], reactor.plan.net
+    if plan.window(number)[1] <= reactor.tick + 1:
         return False
     asked = {one.token for one in reactor.requests}
     if place > 0:
         before = plan.sequence[timeline][place - 1]
         refused = any(one.token == before and one.refused for one in reactor.requests)
-        if (
-            before in asked
-            and _keeps_next(reactor, before)
-            and (refused or not _is_tied(reactor, plan.tokens[before].end, token.start))
-        ):
+        if plan.state[before] == "active" and before not in asked:
+            return True
+        if _keeps_next(reactor, before) and (refused or not _is_tied(reactor, plan.tokens[before].end, token.start)):
             return True
     for other in plan.tokens:
+        here = other.number
+        if other.timeline in reactor.part.internal and plan.state[here] == "active":
+            is_late = other.timeline not in reactor.part.early and not plan.goals_of[here]
+            is_before = net.follows(token.start, other.start) and net.distance(token.start, other.start) < 0
+            if is_late and is_before and net.high[other.start] < net.high[token.start]:
+                return True
         if other.timeline == timeline or other.timeline in reactor.part.internal:
             continue
-        here = other.number
         over = plan.state[here] == "begun" and plan.current[other.timeline] != here
         follows = net.follows(token.start, other.end) and not _is_tied(reactor, other.end, token.start)
         if plan.state[here] in ("active", "begun") and not over and follows:
             line = plan.sequence[other.timeline]
             after = line[line.index(here) + 1] if here != line[-1] else None
-            keeps = here in asked and _keeps_next(reactor, here)
-            if after is not None and not keeps and net.distance(plan.tokens[after].start, token.start) == 0:
-                if net.distance(token.start, plan.tokens[after].start) == 0:
-                    continue
+            if after is not None and not _keeps_next(reactor, here):
+                if net.distance(plan.tokens[after].start, token.start) == 0:
+                    if net.distance(token.start, plan.tokens[after].start) == 0:
+                        continue
             return True
     return False
 
 
 def _keeps_next(reactor: Reactor, number: int) -> bool:
-    """Whether what comes next waits for the end of something that was asked for: not of what holds by default."""
+    """Whether what comes next waits for the end of what was asked for, or has gone on; not of what holds by default."""
     plan, token = reactor.plan, reactor.plan.tokens[number]
+    if reactor.lasting.get(token.timeline) != number and all(one.token != number for one in reactor.requests):
+        return False
     default = reactor.description.kind(token.timeline).predicates[0][0]
     return plan.state[number] != "begun" or token.predicate != default
 

@@ -52,6 +52,7 @@ class Reactor:
     needed: dict[Goal, list[Goal]] = field(default_factory=dict)  # of what runs: what was asked of owners for it
     goals: list[Goal] = field(default_factory=list)
     requests: list[Request] = field(default_factory=list)
+    lasting: dict[str, int] = field(default_factory=dict)  # what has gone on against a command
     tick: int = 0
 
     def __post_init__(self) -> None:
@@ -181,6 +182,7 @@ class Reactor:
     def _relax(self, plan: Plan, forgets: bool, binds: bool = True) -> Plan:
         asked = [goal for goal in self.goals if binds and not goal.is_late]
         relaxed, moved = repaired(plan, forgets, asked)
+        self.lasting = {timeline: moved[one] for timeline, one in self.lasting.items() if one in moved}
         for request in self.requests:
             parents = [one.parent for one in plan.tokens if plan.stands_for(one.number) == request.token]
             request.is_kept = any(parent in moved for parent in parents)
