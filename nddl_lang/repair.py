@@ -13,6 +13,16 @@ from dataclasses import replace
 from functools import cached_property
 
 from nddl_lang.analysis import Analyser, Analysis
+from nddl_lang.lint.guards import lint_guards
+from nddl_lang.lint.numbers import (
+    lint_arrows,
+    lint_chained_comparisons,
+    lint_int_results,
+    lint_truths_as_numbers,
+)
+from nddl_lang.lint.part import Part, PartLint
+from nddl_lang.lint.timing import lint_times
+from nddl_lang.syntax.includes import LoadedModules
 from nddl_lang.syntax.nodes import Include, Module, Statement
 from nddl_lang.syntax.parser import Parse, parse_block
 from nddl_lang.syntax.piece import Piece
@@ -35,6 +45,14 @@ _WIDEST = 80
 _PLAIN = re.compile(r"[\w$.]+")
 _NAME = re.compile(r"[A-Za-z_$][\w$]*")
 _SIGNS = frozenset("=<>!&|:+-*/")
+_DOUBTS: tuple[PartLint, ...] = (  # what they find in the line of an edit nobody meant
+    lint_arrows,
+    lint_chained_comparisons,
+    lint_guards,
+    lint_int_results,
+    lint_times,
+    lint_truths_as_numbers,
+)
 
 
 def repaired(analysis: Analysis) -> Analysis:
@@ -78,7 +96,7 @@ def _told(trials: "_Trials", errors: Sequence[Diagnostic]) -> Generator[None, No
             break
         if place is not None and (error is not place or edit.cost > best[0].cost):
             break
-        if trials.mends(error.span.source, edit.edits):
+        if trials.mends(error.span.source, edit.edits, without_doubt=True):
             best.append(edit)
             place = error
         yield
@@ -198,8 +216,11 @@ class _Trials:
         for _, _, error, edit in found:
             yield error, edit
 
-    def mends(self, source: Source, edits: tuple[tuple[int, int, str], ...]) -> bool:
-        """Whether the model would be without errors after these edits of one of its texts."""
+    def mends(self, source: Source, edits: tuple[tuple[int, int, str], ...], *, without_doubt: bool = False) -> bool:
+        """Whether the model would be without errors after these edits of one of its texts.
+
+        Where that is asked, nothing in the edited lines may be in doubt then either.
+        """
         parse = self._parses.get(source)
         if parse is None:
             return False
@@ -221,7 +242,24 @@ class _Trials:
         if statements is None:
             return False
         self._statements += len(statements)
-        return self._analyser.is_sound(replace(self._loaded, module=Module(statements), diagnostics=()))
+        loaded = replace(self._loaded, module=Module(statements), diagnostics=())
+        if not self._analyser.is_sound(loaded):
+            return False
+        first_edit, last_edit = min(edits)[0] - begin, len(text) - (end - max(one for _, one, _ in edits))
+        return not without_doubt or not self._is_doubtful(loaded, tried.module.statements, first_edit, last_edit)
+
+    def _is_doubtful(self, loaded: LoadedModules, tried: Sequence[Statement], begin: int, end: int) -> bool:
+        """Whether there is a warning of what stands in the lines from `begin` to `end` of the statements `tried`."""
+        analysis = self._analyser.analyse(loaded)
+        found = list(analysis.diagnostics)
+        for statement in tried:
+            part = Part(statement, analysis.by_statement[statement], analysis.dialect)
+            found += (each for lint in _DOUBTS for each in lint(part) if isinstance(each, Diagnostic))
+        if not tried:
+            return False
+        source = tried[0].span.source
+        lines = range(source.locate(begin)[0], source.locate(end)[0] + 1)
+        return any(each.span.source is source and each.span.line in lines for each in found)
 
     def _with(self, pieces: Sequence[Piece], statements: Sequence[Statement]) -> tuple[Statement, ...] | None:
         """The statements of the model with others in place of those of `pieces`; None where that takes a file."""

@@ -130,3 +130,29 @@ def test_a_token_without_the_name_by_which_lines_speak_of_it_is_named_where_it_i
     assert one.help is not None and "`contains(Sonar.Scan ping);`" in one.help
     (fix,) = one.fixes
     assert "contains(Sonar.Scan ping);" in apply_edits(text, [*fix.edits])
+
+
+FILTERS = """
+enum Filter { clear, red }
+class Mount extends Timeline { predicate Track { Filter glass; } }
+class Work extends Timeline { predicate Plate { Filter glass; int exposure; } }
+Work::Plate {
+    contains(Mount.Track track);
+    track.glass == glass;
+}
+Mount mount = new Mount();
+Work work = new Work();
+"""
+
+
+@pytest.mark.parametrize(
+    ("wrong", "wanted"),
+    [
+        ("track.glass == exposure;", ["write `glass`"]),
+        ("exposure == track.glass;", ["write `glass`"]),
+        ("track.glass == 3;", []),
+    ],
+)
+def test_no_repair_leads_to_a_warning_in_its_line(wrong: str, wanted: Sequence[str]) -> None:
+    (one,) = told(FILTERS.replace("track.glass == glass;", wrong))
+    assert [fix.title for fix in one.fixes] == wanted
