@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
 
+from nddl_lang.declared_elsewhere import propose_declared_elsewhere
 from nddl_lang.misspelt_declaration import name_misspelt_declaration
 from nddl_lang.not_included import name_missing_include
 from nddl_lang.semantics.allocation import check_deferred
@@ -162,6 +163,7 @@ class Analyser:
         declared = (name for unit in units.values() for name in unit.tables.declared)
         found = name_misspelt_declaration(loaded.sources, tuple(_in_order(loaded, complaints)), declared)
         found = name_missing_include(loaded, found, _declared_names)
+        found = propose_declared_elsewhere(loaded.module.statements, symbols.schema, found)
         by_statement = {statement: unit.tables for statement, unit in units.items()}
         return Analysis(loaded, loaded.module.statements, symbols.schema, by_statement, found, self._callables)
 

@@ -98,6 +98,7 @@ def _inherit_predicates(context: Context, owner: Class) -> None:
 
 def _check_members(context: Context, owner: Class, node: ClassDecl) -> None:
     members = node.members or ()
+    _tie_types_before_constructors(context, node)
     constructors = [member for member in members if isinstance(member, ConstructorDecl)]
     scopes = declare_constructors(context, owner, constructors)
     for member in members:
@@ -122,6 +123,20 @@ def _check_members(context: Context, owner: Class, node: ClassDecl) -> None:
                 check_predicate(context, owner, member)
             case BrokenStatement():
                 pass
+
+
+def _tie_types_before_constructors(context: Context, node: ClassDecl) -> None:
+    """Complain of an unknown type where it stands first: the parameters of constructors are looked at before others."""
+    members = node.members or ()
+    if any(isinstance(member, BrokenStatement) for member in members):
+        return
+    for member in members:
+        if isinstance(member, ConstructorDecl):
+            return
+        body = member.body if isinstance(member, PredicateDecl) else (member,)
+        for each in body:
+            if isinstance(each, VariableDecl):
+                find_declared_type(context, each.type_name, [one.name for one in each.declarators])
 
 
 def _check_variables(context: Context, owner: Class, node: VariableDecl) -> None:

@@ -26,7 +26,7 @@ def propose_declaration(context: Context, scope: Scope, node: ExprConstraint, fi
         if complaint.code is not UNKNOWN_NAME:
             continue
         if (owner := _class_of(context, node, complaint)) is not None:
-            context.complaints[number] = _declared(complaint, node, owner)
+            context.complaints[number] = declared(complaint, node.span, owner)
         elif isinstance(node.expression, BinaryExpr) and node.expression.op in COMPARISONS:
             for side, other in _sides(node.expression):
                 if isinstance(side, PathExpr) and len(side.parts) == 1 and complaint.span == side.span:
@@ -60,13 +60,14 @@ def _reconsidered(
     is_circular = any(isinstance(each, PathExpr) and each.span.text in proposed for each in descendants(value))
     is_told = complaint.help is not None or complaint.fixes
     if type_ is not None and (not is_told or is_circular or not _may_be_meant(context, scope, complaint, type_)):
-        return _declared(complaint, node, type_.name)
+        return declared(complaint, node.span, type_.name)
     return replace(complaint, help=None, fixes=()) if is_circular else complaint
 
 
-def _declared(complaint: Diagnostic, node: ExprConstraint, type_name: str) -> Diagnostic:
+def declared(complaint: Diagnostic, statement: Span, type_name: str) -> Diagnostic:
+    """The complaint of an unknown name with its declaration, before a statement, as help."""
     written = f"{type_name} {complaint.span.text};"
-    fix = Fix(f"declare `{written}`", (_before(node.span, written),), safe=False)
+    fix = Fix(f"declare `{written}`", (_before(statement, written),), safe=False)
     return replace(complaint, help=f"declare it: `{written}`", fixes=(fix,))
 
 
