@@ -48,6 +48,7 @@ WHOLE_FLOAT = Code("NDDL553", Severity.WARNING, "lint", "EUROPA lets `{name}` ta
 CHAINED = Code("NDDL554", Severity.WARNING, "lint", "`{op}` compares the truth of `{text}`")
 NEVER_WHOLE = Code("NDDL555", Severity.WARNING, "lint", "`{name}` is an int, and never {value}")
 ARROW = Code("NDDL556", Severity.WARNING, "lint", "`{text}` compares: `<-` is `<` and `-`")
+INT_OF_FLOATS = Code("NDDL558", Severity.WARNING, "lint", "`{name}` is an int, and used with floats alone")
 TRUTH_AS_NUMBER = Code("NDDL557", Severity.HINT, "lint", "`{name}` is a bool: {value} stands for `{truth}`")
 OVER_CAPACITY = Code(
     "NDDL560", Severity.WARNING, "lint", "`{name}` {moves} {demand} {way} `{resource}`, which {has} {capacity}"

@@ -9,6 +9,7 @@ from nddl_lang.lint.codes import (
     CHAINED,
     FLOAT_EQUALITY,
     INT_AMONG_FLOATS,
+    INT_OF_FLOATS,
     INT_RESULT,
     NEVER_WHOLE,
     TRUTH_AS_NUMBER,
@@ -135,6 +136,7 @@ def lint_int_results(part: Part) -> Iterator[Finding]:
     """An int that is to equal a float that was computed or drawn, or a number that is not whole."""
     computed = _computed_locals(part)
     drawn = _drawn_locals(part)
+    results: dict[Variable, list[Diagnostic]] = {}
     for left, right, span in _equalities(part):
         for path, other in ((left, right), (right, left)):
             if (
@@ -158,7 +160,39 @@ def lint_int_results(part: Part) -> Iterator[Finding]:
             elif variable in drawn:
                 yield partial(_seldom_whole, result, drawn[variable])
             elif variable in computed or _is_computed(part, other):
-                yield result
+                if (own := _declared_int(part, path)) is not None:
+                    results.setdefault(own, []).append(result)
+                else:
+                    yield result
+    for variable, found in results.items():
+        yield from _of_floats(part, variable, found)
+
+
+def _declared_int(part: Part, path: Expr) -> Variable | None:
+    """The local variable that a declaration of its own makes an int, and gives no value."""
+    reference = part.reference(path) if isinstance(path, PathExpr) else None
+    if not isinstance(reference, LocalReference) or reference.variable.initialiser is not None:
+        return None
+    node = reference.variable.node
+    is_own = isinstance(node, VariableDecl) and len(node.declarators) == 1 and node.type_name.name == "int"
+    return reference.variable if is_own else None
+
+
+def _of_floats(part: Part, variable: Variable, results: list[Diagnostic]) -> Iterator[Diagnostic]:
+    """The `results` of an int; one finding where it is declared, where it is used as a float everywhere else too."""
+    uses = [each for each in part.all(PathExpr) if _declared_int(part, each) is variable]
+    beside = {
+        each: other for one in part.all(BinaryExpr) for each, other in ((one.left, one.right), (one.right, one.left))
+    }
+    beside |= {each: other for left, right, _ in _equalities(part) for each, other in ((left, right), (right, left))}
+    are_floats = all(each in beside and _kind(part, beside[each]) is Kind.FLOAT for each in uses)
+    if not are_floats or len(uses) <= len(results) or variable.span is None:
+        yield from results
+        return
+    assert isinstance(variable.node, VariableDecl)
+    fix = Fix(f"declare `float {variable.name};`", (Edit(variable.node.type_name.span, "float"),), safe=False)
+    notes = tuple(Note("this holds only where the float is whole", each.span) for each in results)
+    yield INT_OF_FLOATS.at(variable.span, notes=notes, fixes=(fix,), name=variable.name)
 
 
 def _never_whole(span: Span, name: str, constant: Variable, facts: Facts) -> Diagnostic | None:

@@ -13,6 +13,7 @@ from nddl_lang.lint.codes import (
     FLOAT_EQUALITY,
     IDLE_FACT,
     INT_AMONG_FLOATS,
+    INT_OF_FLOATS,
     INT_RESULT,
     LITERAL_TRUTH,
     NEVER_PLANNED,
@@ -102,6 +103,13 @@ VALUE_PAGES = (
         "That holds only where the result happens to be whole; in all other cases there is no plan.",
         _GPS + "Gps::active { float rate = [0.1 4.0]; duration == rate * 10.0; hits >= 1; }\n",
         _GPS + "Gps::active { float rate = [0.1 4.0]; duration == ceil(rate * 10.0); hits >= 1; }\n",
+    ),
+    RulePage(
+        INT_OF_FLOATS,
+        "A local int is to equal a float that is computed, and stands beside floats wherever else it is used.",
+        "It holds only where the result happens to be whole. Nothing needs a whole number: it may be a float itself.",
+        _GPS + "Gps::active { float rate = [0.1 4.0]; int span; span == rate * 10.0; span <= 60.0; hits >= 1; }\n",
+        _GPS + "Gps::active { float rate = [0.1 4.0]; float span; span == rate * 10.0; span <= 60.0; hits >= 1; }\n",
     ),
     RulePage(
         WHOLE_FLOAT,
