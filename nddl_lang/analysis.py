@@ -7,9 +7,6 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
 
-from nddl_lang.declared_elsewhere import propose_declared_elsewhere
-from nddl_lang.misspelt_declaration import name_misspelt_declaration
-from nddl_lang.not_included import name_missing_include
 from nddl_lang.semantics.allocation import check_deferred
 from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
 from nddl_lang.semantics.codes import UNKNOWN_CLASS, UNKNOWN_NAME, UNKNOWN_TYPE
@@ -36,6 +33,7 @@ from nddl_lang.syntax.nodes import (
 from nddl_lang.syntax.parser import MOST_LEXEMES
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.source import Source, Span
+from nddl_lang.told_once import told_once
 
 _TEXT_IS_MISSING = (MISSING_FILE, UNREADABLE_FILE, TOO_DEEP, TOO_LARGE, UNCLOSED_COMMENT)
 _UNKNOWN = (UNKNOWN_NAME, UNKNOWN_TYPE, UNKNOWN_CLASS)
@@ -161,9 +159,7 @@ class Analyser:
                 all_of = (*unit.complaints, *_deferred(symbols, unit, loaded, self._callables))
                 complaints.append((index, tuple(echoes._without(all_of))))
         declared = (name for unit in units.values() for name in unit.tables.declared)
-        found = name_misspelt_declaration(loaded.sources, tuple(_in_order(loaded, complaints)), declared)
-        found = name_missing_include(loaded, found, _declared_names)
-        found = propose_declared_elsewhere(loaded.module.statements, symbols.schema, found)
+        found = told_once(loaded, symbols.schema, tuple(_in_order(loaded, complaints)), declared, _declared_names)
         by_statement = {statement: unit.tables for statement, unit in units.items()}
         return Analysis(loaded, loaded.module.statements, symbols.schema, by_statement, found, self._callables)
 

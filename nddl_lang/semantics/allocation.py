@@ -14,6 +14,7 @@ from nddl_lang.semantics.typenames import find_defined_class
 from nddl_lang.semantics.types import fits, object_type, phrase
 from nddl_lang.semantics.values import check_restriction
 from nddl_lang.syntax.nodes import Assignment, Expr, NewExpr, PathExpr, StringLiteral
+from nddl_lang.syntax.removal import removal
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 from nddl_lang.text.source import Span
 
@@ -48,7 +49,7 @@ def _joins_late(new: Span, closed: Span, name: str) -> Diagnostic:
     fixes: tuple[Fix, ...] = ()
     if closed.source is new.source and text.endswith(";") and rest.startswith(";"):
         behind = new.end + len(new.source.text) - new.finish - len(rest) + 1
-        edits = (Edit(closed, ""), Edit(Span(new.anchor, behind, behind), f"\n{text}"))
+        edits = (removal(closed), Edit(Span(new.anchor, behind, behind), f"\n{text}"))
         fixes = (Fix(f"write `{text}` behind it", edits, safe=False),)
     help_ = f"`{text}` stands behind the last object that is made"
     notes = (Note("it is closed here", closed),)

@@ -114,3 +114,4 @@ MERGE_OTHER = Code(
 )
 NOT_REJECTABLE = Code("NDDL410", Severity.ERROR, "state", "`{name}` is a {kind}, which cannot be rejected")
 ORDER_INACTIVE = Code("NDDL411", Severity.ERROR, "state", "`{name}` is not active, so it has no place on `{object}`")
+EARLY_CLOSE = Code("NDDL412", Severity.ERROR, "state", "`{text}` stands above objects, which can join no more")

@@ -30,6 +30,7 @@ from nddl_lang.semantics.script import check_domain, note_state
 from nddl_lang.semantics.types import STATE, reference_type
 from nddl_lang.semantics.values import check_value, domain_key
 from nddl_lang.syntax.nodes import MethodCall, PathExpr
+from nddl_lang.syntax.removal import removal
 from nddl_lang.text.diagnostic import Edit, Fix, Note
 from nddl_lang.text.source import Span
 
@@ -126,7 +127,8 @@ def _check_effect(context: Context, scope: Scope, node: MethodCall, row: MethodR
 def _close(context: Context, class_name: str | None, span: Span, what: str) -> None:
     closed = context.symbols.closed_at(class_name if class_name is not None else "*")
     if closed is not None:
-        context.complain(CLOSED_TWICE.at(span, notes=(Note("it is closed here", closed),), what=what))
+        fix = Fix("remove it", (removal(span),))
+        context.complain(CLOSED_TWICE.at(span, notes=(Note("it is closed here", closed),), what=what, fixes=(fix,)))
     else:
         context.symbols.put_closed(class_name, span)
 
@@ -147,7 +149,8 @@ def _check_decision(context: Context, scope: Scope, node: MethodCall, row: Metho
         if (closed := context.symbols.look("closed variable", key)) is not None:
             assert isinstance(closed, Span)
             notes = (Note("it is closed here", closed),)
-            context.complain(CLOSED_TWICE.at(node.span, notes=notes, what=f"`{node.target.span.text}`"))
+            fix = Fix("remove it", (removal(node.span),))
+            context.complain(CLOSED_TWICE.at(node.span, notes=notes, fixes=(fix,), what=f"`{node.target.span.text}`"))
         context.symbols.put("closed variable", key, node.span)
 
 

@@ -3,6 +3,7 @@
 from nddl_lang.semantics.codes import (
     CLASS_IS_CLOSED,
     CLOSED_TWICE,
+    EARLY_CLOSE,
     FOREIGN_TARGET,
     MERGE_INACTIVE,
     MERGE_OTHER,
@@ -61,6 +62,13 @@ SCRIPT_PAGES = (
         "The second time has no effect, and EUROPA refuses it.",
         "close();\nclose();\n",
         "close();\n",
+    ),
+    RulePage(
+        EARLY_CLOSE,
+        "A class, or every class, is closed above several objects, or above an object and a second `close()`.",
+        "No object joins a class that is closed. One object below is told by NDDL403, where it stands.",
+        "class Lamp { }\nclose();\nLamp a = new Lamp();\nLamp b = new Lamp();\n",
+        "class Lamp { }\nLamp a = new Lamp();\nLamp b = new Lamp();\nclose();\n",
     ),
     RulePage(
         NOT_INACTIVE,
