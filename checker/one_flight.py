@@ -110,8 +110,11 @@ class Recorded:
 
 def read_trace(path: Path) -> Recorded:
     """Read a trace; raises OSError, or ValueError where the file is none."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    head: dict[str, Any] = json_value(lines[0]) if lines else {}
+    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    try:
+        head: dict[str, Any] = json_value(lines[0]) if lines else {}
+    except ValueError:
+        raise ValueError("its first line is no JSON object") from None
     if not isinstance(head, dict) or head.get("kind") != _HEAD:
         raise ValueError("its first line does not say which mission it is of")
     try:

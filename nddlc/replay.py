@@ -28,7 +28,7 @@ def command(path: str, mission: str | None, is_trusted: bool) -> int:
     try:
         recorded = read_trace(Path(file))
     except ValueError as problem:
-        raise Unusable(f"`{path}` is no trace: {problem}") from None
+        raise Unusable(f"`{path}` is no trace: {problem}", "`nddlc run MISSION --trace FILE` writes one") from None
     _, read, models = prepare(mission or str(recorded.mission), is_trusted=is_trusted, is_named=mission is not None)
     flight = fly(read, models, recorded.settings)
     found = first_departure(recorded, flight)

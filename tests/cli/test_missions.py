@@ -100,8 +100,12 @@ def test_events_that_look_alike_are_told_with_what_differs(mission: Path, capsys
 
 
 def test_what_is_no_trace_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "t.jsonl").write_text('{"kind": "observation"}\n')
-    assert flown(capsys, "replay", str(tmp_path / "t.jsonl"))[0] == 2
+    file = tmp_path / "t.jsonl"
+    for content in (b'{"kind": "observation"}\n', b"[mission]\n", b"\xff\xfe\n", b""):
+        file.write_bytes(content)
+        assert run(["replay", str(file)]) == 2
+        said = capsys.readouterr().err
+        assert "is no trace: its first line" in said and "help: `nddlc run MISSION --trace FILE` writes one" in said
 
 
 def test_what_was_accepted_is_compared(mission: Path, capsys: pytest.CaptureFixture[str]) -> None:
