@@ -60,10 +60,10 @@ class ModelSet:
         return any(diagnostic.severity is Severity.ERROR for diagnostic in self.diagnostics)
 
 
-def examine(source: Source, root: Path) -> tuple[Diagnostic, ...]:
-    """All that is wrong with a mission file in the folder `root`, and with its models."""
+def examine(source: Source, root: Path, open_text: OpenText = read_text) -> tuple[Diagnostic, ...]:
+    """All that is wrong with a mission file in the folder `root`, and with its models, which `open_text` opens."""
     mission, found = parse_mission(source, root)
-    return found if mission is None else (*found, *load_models(mission).diagnostics)
+    return found if mission is None else (*found, *load_models(mission, open_text).diagnostics)
 
 
 def _named_files(agent: AgentConfiguration, root: Path) -> Iterator[tuple[str, str]]:

@@ -112,7 +112,9 @@ def _proposed(error: Diagnostic, repairs: Sequence[TokenEdit], said: str | None)
     help_ = f"perhaps {', or '.join(phrase for phrase, _ in words)}"
     help_ = help_ if said is None else f"{said}; {help_}"
     fixes = tuple(
-        Fix(title, tuple(Edit(Span(anchor, begin, end), put) for begin, end, put in each.edits), safe=False)
+        Fix(
+            title, tuple(Edit(Span(anchor, begin, end), put) for begin, end, put in each.edits), False, len(repairs) > 1
+        )
         for each, (_, title) in zip(repairs, words, strict=True)
     )
     return replace(error, help=help_, fixes=fixes)

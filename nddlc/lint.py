@@ -23,6 +23,7 @@ from nddl_lang.text.sarif import sarif_of
 from nddl_lang.text.source import Span
 from nddl_lang.text.values import json_text
 from nddlc.fitting import colours, say
+from nddlc.fixes_left import counted, fixes_left
 from nddlc.inputs import (
     Unusable,
     chosen_dialect,
@@ -35,7 +36,7 @@ from nddlc.inputs import (
 )
 from nddlc.known import known_callables
 from nddlc.main import named
-from nddlc.mended_files import MendedFile, mended_files, mission_findings
+from nddlc.mended_files import MendedFile, mended_files, mended_parts, mission_findings
 from nddlc.watch import WatchedCommand
 
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
@@ -96,9 +97,15 @@ def command(
     mended = 0
     set_up = [(path, *_settings(path, codes, fail_on, is_trusted)) for path in paths]
     # All is mended before anything is looked at: a mission or a model has part in what is mended in another file.
-    for path, settings, _ in set_up if fix or unsafe_fixes or only_show else ():
+    is_mended = fix or unsafe_fixes or only_show
+    mendable = set(paths)
+    for path, settings, _ in set_up if is_mended else ():
         for changed in mended_files(checker, path, settings, unsafe=unsafe_fixes):
+            mendable.add(changed.path)
             mended += _mend(changed, only_show=only_show, is_text=style == "text")
+    for changed in mended_parts(checker, unsafe=unsafe_fixes) if is_mended else ():
+        mendable.add(changed.path)
+        mended += _mend(changed, only_show=only_show, is_text=style == "text")
     if only_show:
         return int(mended > 0)
     for path, settings, gaps in set_up:
@@ -116,7 +123,8 @@ def command(
             found.append(each)
             has_failed |= settings.fail_on is not None and at_least(each.severity, settings.fail_on)
     found = list(checker.gathered(found))
-    _tell(found, [str(path) for path in paths], style, mended, statistics)
+    left = fixes_left(found, mendable, unsafe=unsafe_fixes) if is_mended else []
+    _tell(found, [str(path) for path in paths], style, mended, statistics, left)
     return int(has_failed)
 
 
@@ -193,7 +201,9 @@ def _mend(changed: MendedFile, *, only_show: bool, is_text: bool) -> int:
     return changed.mended.count
 
 
-def _tell(found: list[Diagnostic], files: list[str], style: str, mended: int, statistics: bool) -> None:
+def _tell(
+    found: list[Diagnostic], files: list[str], style: str, mended: int, statistics: bool, left: Sequence[str]
+) -> None:
     match style:
         case "json":
             click.echo(json_text({"files": files, "diagnostics": [as_dict(each) for each in found]}))
@@ -214,14 +224,16 @@ def _tell(found: list[Diagnostic], files: list[str], style: str, mended: int, st
                 ).most_common():
                     say(f"{count:6}  {code}  {message}\n")
             if mended:
-                click.echo(f"{_counted(mended, 'fix', 'fixes')} carried out")
+                click.echo(f"{counted(mended, 'fix', 'fixes')} carried out")
+            for line in left:
+                say(f"{line}\n")
             say(f"{_summary(found, files)}\n")
 
 
 def _summary(found: Sequence[Diagnostic], files: Sequence[str]) -> str:
     """How many findings of each weight there are, in one line; of a mission file alone, what was not looked for."""
     counts = Counter(each.severity for each in found)
-    words = [_counted(counts[severity], _WORDS[severity]) for severity in Severity if counts[severity]]
+    words = [counted(counts[severity], _WORDS[severity]) for severity in Severity if counts[severity]]
     paths = [Path(each) for each in files]
     missions = [each for each in paths if each.suffix in MISSION_SUFFIXES and each.name not in (NAME, PROJECT)]
     more = ""
@@ -230,8 +242,4 @@ def _summary(found: Sequence[Diagnostic], files: Sequence[str]) -> str:
     )
     if missions and not counts[Severity.ERROR] and are_missions:
         more = f" (of its models only errors are told; `nddlc lint {missions[0].parent}` has their warnings)"
-    return f"{', '.join(words) or 'nothing wrong'} in {_counted(len(files), 'file')}{more}"
-
-
-def _counted(number: int, word: str, words: str | None = None) -> str:
-    return f"{number} {word}" if number == 1 else f"{number} {words or word + 's'}"
+    return f"{', '.join(words) or 'nothing wrong'} in {counted(len(files), 'file')}{more}"

@@ -10,6 +10,7 @@ from nddl_lang.lint.mending import Mended, mend, text_to_mend
 from nddl_lang.lint.settings import Settings
 from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.text.diagnostic import Diagnostic
+from nddl_lang.text.read import read_text, real_path
 from nddl_lang.text.source import Source
 from nddlc.main import named
 
@@ -36,7 +37,7 @@ def mission_findings(source: Source, root: Path) -> tuple[Diagnostic, ...]:
 
 
 def mended_files(checker: Checker, path: Path, settings: Settings, *, unsafe: bool) -> Iterator[MendedFile]:
-    """The file at `path` after its fixes, and behind a mission the configurations of its solvers."""
+    """The file at `path` after its fixes, and behind a mission its models and the configurations of its solvers."""
     if path.suffix not in MISSION_SUFFIXES:
         outcome = checker.mend(path, settings, unsafe=unsafe)
         yield MendedFile(path, *outcome) if outcome is not None else MendedFile(path, "", None)
@@ -47,6 +48,14 @@ def mended_files(checker: Checker, path: Path, settings: Settings, *, unsafe: bo
         yield mission
         for solver in _solvers(mission):
             yield _mended(solver, [mission_findings], quiet, unsafe=unsafe)
+        for model in _models(mission):
+            yield _mended(model, [_as_model_of(mission)], quiet, unsafe=unsafe)
+
+
+def mended_parts(checker: Checker, *, unsafe: bool) -> Iterator[MendedFile]:
+    """The files that the models `checker` has mended include, and no others, after their fixes."""
+    for path, outcome in checker.mend_parts(unsafe=unsafe):
+        yield MendedFile(path, *outcome) if outcome is not None else MendedFile(path, "", None)
 
 
 def _mended(path: Path, checks: list[_Examine], settings: Settings, *, unsafe: bool) -> MendedFile:
@@ -78,6 +87,31 @@ def _solvers(mission: MendedFile) -> list[Path]:
     left = mission.mended.left if mission.mended is not None else ()
     sources = {each.span.source for each in left if each.fixes and _is_solver(each.span.source)}
     return sorted(Path(source.name) for source in sources if Path(source.name) != mission.path)
+
+
+def _models(mission: MendedFile) -> list[Path]:
+    """The models in the folder of a mission that its findings know a fix for."""
+    left = mission.mended.left if mission.mended is not None else ()
+    sources = {each.span.source for each in left if each.fixes and each.span.source.name.endswith(".nddl")}
+    folder = real_path(mission.path.parent)
+    return sorted(path for each in sources if real_path(path := Path(each.name)).is_relative_to(folder))
+
+
+def _as_model_of(mission: MendedFile) -> _Examine:
+    """What is wrong with a mission, where one of its models has another text."""
+    assert mission.mended is not None
+    source = Source(str(mission.path), mission.mended.text)
+
+    def examine(model: Source, _root: Path) -> tuple[Diagnostic, ...]:
+        changed = real_path(Path(model.name))
+
+        def open_text(path: Path) -> str | None:
+            return model.text if real_path(path) == changed else read_text(path)
+
+        found: tuple[Diagnostic, ...] = named("checker.models:examine")(source, mission.path.parent, open_text)
+        return found
+
+    return examine
 
 
 def _is_solver(source: Source) -> bool:

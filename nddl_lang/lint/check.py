@@ -1,8 +1,9 @@
 """Files in, all that is wrong with them by the settings of their project out."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Protocol
 
 from nddl_lang.analysis import analyse
 from nddl_lang.lint.linter import Linter
@@ -15,7 +16,7 @@ from nddl_lang.syntax.codes import UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import load_module_graph
 from nddl_lang.syntax.nodes import Identifier
-from nddl_lang.text.diagnostic import Diagnostic
+from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.read import decode, read_named, read_text, real_path
 from nddl_lang.text.source import Anchor, Source, Span
 
@@ -37,6 +38,8 @@ class Checker:
         self._dialect = dialect
         self._parts = parts
         self._part_of: dict[Source, Path] = {}
+        self._names: dict[Path, Path] = {}
+        self._roots: dict[Path, dict[Path, Settings]] = {}
         self._readers: Counter[Path] = Counter()
         self._votes: Counter[tuple[Path, int, str]] = Counter()
         self._sources: list[Source] = []
@@ -78,19 +81,77 @@ class Checker:
         if text is None:
             return None
         quiet = settings.for_mending()
-        return text, mend(text, lambda changed: self._check(Source(str(path), changed), quiet), unsafe=unsafe)
 
-    def _check(self, source: Source, settings: Settings, *, is_counted: bool = False) -> tuple[Diagnostic, ...]:
+        def check(changed: str, *, is_repaired: bool = False) -> tuple[Diagnostic, ...]:
+            return self._check(Source(str(path), changed), quiet, is_repaired=is_repaired)
+
+        return text, _mended(text, check, unsafe=unsafe)
+
+    def mend_parts(self, *, unsafe: bool) -> Iterator[tuple[Path, tuple[str, Mended] | None]]:
+        """Each file that the mended models include, and no others: its name, and what `mend` gives for it."""
+        for part, roots in list(self._roots.items()):
+            text = text_to_mend(part)
+            if text is None:
+                yield self._names[part], None
+                continue
+
+            def check(
+                changed: str, part: Path = part, roots: dict[Path, Settings] = roots, *, is_repaired: bool = False
+            ) -> tuple[Diagnostic, ...]:
+                found: list[Diagnostic] = []
+                for root, settings in roots.items():
+                    source = Source(str(root), self._read(root))
+                    quiet = settings.for_mending()
+                    found += self._check(source, quiet, is_repaired=is_repaired, texts={part: changed})
+                votes = Counter((each.span.begin, each.code.id) for each in found)
+                return tuple(
+                    each
+                    for each in found
+                    if each.code not in OF_ALL_MODELS or votes[each.span.begin, each.code.id] == len(roots)
+                )
+
+            yield self._names[part], (text, _mended(text, check, unsafe=unsafe))
+
+    def _check(
+        self,
+        source: Source,
+        settings: Settings,
+        *,
+        is_counted: bool = False,
+        is_repaired: bool = False,
+        texts: Mapping[Path, str] | None = None,
+    ) -> tuple[Diagnostic, ...]:
+        def open_text(path: Path) -> str | None:
+            return read_text(path) if texts is None else texts.get(real_path(path)) or read_text(path)
+
         directories = (*self._directories, *settings.directories)
-        loaded = load_module_graph(source, directories, self._dialect or settings.dialect, most=settings.most_lexemes)
+        dialect = self._dialect or settings.dialect
+        loaded = load_module_graph(source, directories, dialect, open_text=open_text, most=settings.most_lexemes)
         for included, place in loaded.paths.items():
             if included is not source and (part := real_path(place)) in self._parts:
                 self._part_of[included] = part
+                self._names.setdefault(part, Path(included.name))
+                self._roots.setdefault(part, {})[Path(source.name)] = settings
                 self._readers[part] += is_counted
         analysis = analyse(loaded, settings.callables)
-        if is_counted:  # else fixes are carried out, of consequences as well
+        if is_counted or is_repaired:  # else fixes are carried out, of consequences as well
             analysis = repaired(analysis)
         if is_counted and analysis.has_errors:
             self._sources += loaded.sources
             self._declared += (name for tables in analysis.by_statement.values() for name in tables.declared)
         return tuple(settings.choose(Linter(self._parts).lint(analysis)))
+
+
+class _Check(Protocol):
+    """All that is wrong with a changed text; where it `is_repaired`, with small edits as fixes."""
+
+    def __call__(self, changed: str, *, is_repaired: bool = False) -> tuple[Diagnostic, ...]: ...
+
+
+def _mended(text: str, check: _Check, *, unsafe: bool) -> Mended:
+    """A text after the fixes of its messages, and then after small edits that would leave no error."""
+    done = mend(text, check, unsafe=unsafe)
+    if not unsafe or not any(each.severity is Severity.ERROR for each in done.left):
+        return done
+    again = mend(done.text, lambda changed: check(changed, is_repaired=True), unsafe=True)
+    return Mended(again.text, done.count + again.count, again.left)

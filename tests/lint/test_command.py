@@ -200,6 +200,42 @@ def test_unsafe_fixes_are_asked_for(tmp_path: Path, capsys: Captured) -> None:
     capsys.readouterr()
 
 
+def test_what_an_included_file_has_is_mended_with_the_model(tmp_path: Path, capsys: Captured) -> None:
+    part = file(
+        tmp_path, "enum Light { reef, cape }\nclass Boat extends Timeline { predicate Sail { Lihgt to; } }\n", "p.nddl"
+    )
+    whole = file(tmp_path, '#include "p.nddl"\nBoat boat = new Boat();\nclose();\ngoal(boat.Sail s);\ns.to == reef;\n')
+    assert run(["lint", whole, "--fix"]) == 1
+    assert "1 fix left, which may change the meaning" in capsys.readouterr().out
+    assert run(["lint", whole, "--unsafe-fixes"]) == 0
+    assert "1 fix carried out\nnothing wrong" in capsys.readouterr().out
+    assert "{ Light to; }" in Path(part).read_text(encoding="utf-8")
+
+
+def test_of_fixes_that_are_left_it_is_told_why(tmp_path: Path, capsys: Captured) -> None:
+    part = file(tmp_path, "int a = 3 4;\nint b; a == b;\n", "p.nddl")
+    file(tmp_path, '#include "p.nddl"\na == 3;\n', "other.nddl")
+    whole = file(tmp_path, '#include "p.nddl"\na == 4;\n')
+    assert run(["lint", whole, "--unsafe-fixes"]) == 1
+    assert f"left in `{part}`, which is not one of the files given: `nddlc lint" in capsys.readouterr().out
+
+
+def test_what_only_a_mission_tells_of_its_model_is_mended_with_it(tmp_path: Path, capsys: Captured) -> None:
+    text = (
+        '#include "TREX.nddl"\nclass Rock { int far; Rock(int f) { far = f; } }\nclass Boat extends AgentTimeline {\n'
+        'predicate Lie { }\npredicate Sail { int miles; }\nBoat(Mode m) { super(m, "Lie"); }\n}\n'
+        "Boat::Sail { Rock rock; rock.far == miles; }\nRock a = new Rock(3);\nBoat boat = new Boat(Internal);\n"
+    )
+    model = file(tmp_path, text)
+    reactor = '[[reactor]]\nname = "o"\nmodel = "m.nddl"\nlatency = 1\nlookahead = 50\ninternal = ["boat"]\n'
+    goal = '[[goal]]\ntimeline = "boat"\npredicate = "Sail"\n[goal.parameters]\nmiles = 3\n'
+    mission = file(tmp_path, f'[mission]\nname = "x"\nfinal_tick = 50\n{reactor}{goal}', "mission.toml")
+    assert run(["lint", model, "--unsafe-fixes"]) == 0
+    assert run(["lint", mission, "--unsafe-fixes"]) == 0
+    assert Path(model).read_text(encoding="utf-8") == f"{text}close();\n"
+    assert "1 fix carried out" in capsys.readouterr().out
+
+
 def test_a_diff_changes_nothing(tmp_path: Path, capsys: Captured) -> None:
     path = file(tmp_path, UNUSED)
     assert run(["lint", path, "--diff"]) == 1
