@@ -5,7 +5,7 @@ import sys
 from collections.abc import Sequence
 
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import KIND_BOOL
+from runtime.constraints.domains.tags import KIND_BOOL, KIND_INT
 from runtime.constraints.engine import Engine
 from runtime.constraints.propagators.external import External
 from runtime.user.constraint import Constraint, Term
@@ -140,8 +140,12 @@ def _copied(s: Engine, v: int, engine: Engine) -> int:
 
 
 def _listed(engine: Engine, v: int) -> list[float] | None:
-    """All values of a domain; None where they are too many for a list, or without end."""
-    return engine.values_of(v) if engine.is_finite(v) and engine.size(v) <= MOST_LISTED else None
+    """All values of a domain; None where its bounds say them all, or they are too many for a list, or without end."""
+    if not engine.is_finite(v) or engine.size(v) > MOST_LISTED:
+        return None
+    if engine.kind[v] == KIND_INT and engine.size(v) == engine.upper(v) - engine.lower(v) + 1:
+        return None
+    return engine.values_of(v)
 
 
 def has_test(constraint: Constraint) -> bool:
