@@ -31,7 +31,7 @@ def obstacle() -> str | None:
     if is_set("NDDLC_NO_COMPILE"):
         return "NDDLC_NO_COMPILE is set"
     if not Path(sysconfig.get_path("include"), "Python.h").exists():
-        return "this Python comes without its header files (Python.h)"
+        return "this Python comes without its header files (Python.h; Debian has them in `python3-dev`)"
     if machine_compiler() is None and zig_compiler() is None:
         return "there is no working C compiler, and the package `ziglang` is not installed"
     return None

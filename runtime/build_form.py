@@ -22,8 +22,8 @@ def uncompiled_notice() -> str | None:
     if interpreting_is_asked() or build_form() == "compiled":
         return None
     return (
-        "the engine runs uncompiled, many times slower, with the same results: no C compiler could be used "
-        "when nddlc was installed (NDDLC_INTERPRETED=1 silences this)"
+        "the engine runs uncompiled, many times slower, with the same results: no C compiler, or no "
+        "header files of Python, could be used when nddlc was installed (NDDLC_INTERPRETED=1 silences this)"
     )
 
 
