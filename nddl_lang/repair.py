@@ -13,11 +13,11 @@ from dataclasses import replace
 from functools import cached_property
 
 from nddl_lang.analysis import Analyser, Analysis
+from nddl_lang.lint.codes import NEVER_DECIDED
 from nddl_lang.lint.guards import lint_guards
 from nddl_lang.lint.numbers import (
     lint_arrows,
     lint_chained_comparisons,
-    lint_int_results,
     lint_truths_as_numbers,
 )
 from nddl_lang.lint.part import Part, PartLint
@@ -49,7 +49,6 @@ _DOUBTS: tuple[PartLint, ...] = (  # what they find in the line of an edit nobod
     lint_arrows,
     lint_chained_comparisons,
     lint_guards,
-    lint_int_results,
     lint_times,
     lint_truths_as_numbers,
 )
@@ -257,6 +256,7 @@ class _Trials:
         for statement in tried:
             part = Part(statement, analysis.by_statement[statement], analysis.dialect)
             found += (each for lint in _DOUBTS for each in lint(part) if isinstance(each, Diagnostic))
+        found = [each for each in found if each.code is not NEVER_DECIDED]  # what is late may be meant
         if not tried:
             return False
         source = tried[0].span.source

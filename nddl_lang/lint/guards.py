@@ -22,7 +22,7 @@ from nddl_lang.syntax.nodes import (
     SetExpr,
 )
 from nddl_lang.syntax.walk import descendants
-from nddl_lang.text.diagnostic import Diagnostic, Note
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 
 _ASKING = frozenset({"isSingleton", "isSpecified"})
 
@@ -91,16 +91,16 @@ def _undecided(part: Part, condition: Expr, sampled: set[object]) -> Iterator[Fi
     }
     for node in descendants(condition):
         if isinstance(node, PathExpr) and node not in asked:
-            yield from _undecided_path(part, node, sampled)
+            yield from _undecided_path(part, condition, node, sampled)
 
 
-def _undecided_path(part: Part, path: PathExpr, sampled: set[object]) -> Iterator[Finding]:
+def _undecided_path(part: Part, condition: Expr, path: PathExpr, sampled: set[object]) -> Iterator[Finding]:
     reference = part.reference(path)
-    if isinstance(reference, LocalReference) and reference.variable.type.kind in (Kind.INT, Kind.FLOAT):
-        variable = reference.variable
-        if not is_finite(variable.type, declared(variable)) and not _is_sampled(part, variable, sampled):
-            help_ = "that constraints leave one value decides nothing; a search decides it once few values are left"
-            yield NEVER_DECIDED.at(path.span, help=help_, name=variable.name)
+    if (variable := _narrowed(part, path, sampled)) is not None:
+        fixes = _computed_in_place(part, condition, path, variable, sampled)
+        written = f"`{fixes[0].edits[0].text}`" if fixes else "a parameter, or what the variable is computed from"
+        help_ = f"let the condition ask for {written}: only a search decides a local, once few values are left"
+        yield NEVER_DECIDED.at(path.span, help=help_, fixes=fixes, name=variable.name)
     elif isinstance(reference, MemberReference) and part.dialect is Dialect.NDDL3:
         base = reference.base
         type_ = (
@@ -110,6 +110,48 @@ def _undecided_path(part: Part, path: PathExpr, sampled: set[object]) -> Iterato
         )
         if type_ is not None and isinstance(base, TokenVariableReference | LocalReference):
             yield _varying(path, type_.base)
+
+
+def _narrowed(part: Part, path: PathExpr, sampled: set[object]) -> Variable | None:
+    """The local number that a path names, where nothing but constraints narrows it."""
+    reference = part.reference(path)
+    if not isinstance(reference, LocalReference) or reference.variable.type.kind not in (Kind.INT, Kind.FLOAT):
+        return None
+    variable = reference.variable
+    is_decided = is_finite(variable.type, declared(variable)) or _is_sampled(part, variable, sampled)
+    return None if is_decided else variable
+
+
+def _computed_in_place(
+    part: Part, condition: Expr, path: PathExpr, variable: Variable, sampled: set[object]
+) -> tuple[Fix, ...]:
+    """What a local equals, written in place of it, where one line above says so and asks for no such local itself."""
+    values: list[Expr] = []
+    for node in part.all(ExprConstraint):
+        equality = node.expression
+        if isinstance(equality, BinaryExpr) and equality.op == "==" and node.span.begin < path.span.begin:
+            for side, other in ((equality.left, equality.right), (equality.right, equality.left)):
+                reference = part.reference(side) if isinstance(side, PathExpr) else None
+                if isinstance(reference, LocalReference) and reference.variable is variable:
+                    values.append(other)
+    if len(values) != 1 or part.dialect is not Dialect.NDDLC or not isinstance(values[0], BinaryExpr | CallExpr):
+        return ()
+    (value,) = values
+    names = [node for node in descendants(value) if isinstance(node, PathExpr)]
+    if any(_narrowed(part, name, sampled) is not None for name in names):
+        return ()
+    is_alone = isinstance(value, CallExpr) or (value.op in ("*", "/", "+", "-") and _is_whole(condition, path))
+    text = value.span.text if is_alone else f"({value.span.text})"
+    return (Fix(f"write `{text}`", (Edit(path.span, text),), safe=False),)
+
+
+def _is_whole(condition: Expr, path: PathExpr) -> bool:
+    """Whether a name is one side of a comparison, not a part of one."""
+    return any(
+        path in (node.left, node.right) and node.op in ("==", "!=", "<", "<=", ">", ">=")
+        for node in descendants(condition)
+        if isinstance(node, BinaryExpr)
+    )
 
 
 def _is_sampled(part: Part, variable: Variable, sampled: set[object]) -> bool:
