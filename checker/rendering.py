@@ -69,6 +69,7 @@ _KINDS = {
     ReasonKind.NO_OWNER: "nobody owns the timeline any more",
     ReasonKind.UNKNOWN_PREDICATE: "the timeline has no such predicate",
     ReasonKind.MISFIT: "its arguments do not fit",
+    ReasonKind.TIMES: "its times do not fit",
     ReasonKind.DROPPED: "dropped in a repair",
     ReasonKind.LACKING: "an owner had given up what it needed",
     ReasonKind.REJECTED: "the planner found no place for it",

@@ -5,6 +5,7 @@ from dataclasses import replace
 from runtime.executive.cuts import Cuts, Repair
 from runtime.executive.dispatch import Dispatch
 from runtime.executive.messages import Request
+from runtime.executive.misfits import misfit
 from runtime.executive.outcome import Conflict, Deadlock, EventKind, OpenGoal, Reason, ReasonKind
 from runtime.executive.reactor import Refusal, Watched
 from runtime.executive.repair import hold_present, stand
@@ -82,8 +83,7 @@ class Goals:
         if not holds:
             bench.rewind_to(mark)
             bench.commit()
-            unknown = bench.unknown_argument(predicate, request.arguments)
-            self.refuse(request, Reason(ReasonKind.MISFIT, message=unknown))
+            self.refuse(request, misfit(bench, predicate, line.object_id, request))
             return
         bench.commit()
         bench.remember_request(token)

@@ -169,6 +169,7 @@ class ReasonKind(StrEnum):
     NO_OWNER = "no owner"
     UNKNOWN_PREDICATE = "unknown predicate"
     MISFIT = "misfit"
+    TIMES = "times"
     TOO_LATE = "too late"
     DROPPED = "dropped"
     LACKING = "lacking"

@@ -31,6 +31,7 @@ _REASONS = {
     ReasonKind.NO_OWNER: "nobody owns `{timeline}` any more",
     ReasonKind.UNKNOWN_PREDICATE: "`{timeline}` has no predicate `{predicate}`",
     ReasonKind.MISFIT: "its arguments do not fit{message}",
+    ReasonKind.TIMES: "its times do not fit{message}",
     ReasonKind.TOO_LATE: "too late",
     ReasonKind.DROPPED: "dropped in the repair",
     ReasonKind.LACKING: "an owner has given up what it needs",

@@ -69,6 +69,21 @@ def test_a_goal_whose_arguments_do_not_fit_is_refused() -> None:
     assert outcome.abort is None and len(outcome.open_goals) == 1
 
 
+@pytest.mark.parametrize(
+    ("limit", "times", "told"),
+    [
+        ("n <= 9;", {"start": (7, 8), "end": (0, 6)}, "its times do not fit: start [7 8], end [0 6]"),
+        ("duration <= 5;", {"duration": (6, 8)}, "its times do not fit: duration [6 8]"),
+        ("duration == n;", {"duration": (1, 3)}, "its times do not fit its arguments: duration [1 3]"),
+    ],
+)
+def test_a_goal_whose_times_do_not_fit_is_refused(limit: str, times: dict[str, tuple[int, int]], told: str) -> None:
+    limited = LAMP.replace("int n;", f"int n; {limit}")
+    goals = (GoalConfiguration("lamp", "On", parameters=(("n", 7),), **times),)
+    outcome = fly(simulator("sim", f"{limited} Lamp lamp = new Lamp(Internal); close();", "lamp"), goals=goals)
+    assert [line.partition(": ")[2] for line in lines(outcome, "refuse")] == [told]
+
+
 @pytest.mark.parametrize("compiles", [True, False])
 def test_an_argument_that_the_predicate_does_not_have_is_named(compiles: bool) -> None:
     goals = (GoalConfiguration("lamp", "On", mandatory=True, parameters=(("m", 7),)),)
