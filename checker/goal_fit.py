@@ -1,6 +1,7 @@
 """Hold the goals of a mission file against its time, and their values against the types of the model."""
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -28,6 +29,9 @@ from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.configuration import AgentConfiguration, Bounds, GoalConfiguration, Value
 
 _MOST_NAMED = 12
+_WHOLE = re.compile(r"[-+]?(?:0|[1-9]\d*)")
+_NUMBER = re.compile(r"[-+]?(?:0|[1-9]\d*)(?:\.\d+)?")
+_TRUTHS = {"true": "true", "false": "false", "yes": "true", "no": "false", "on": "true", "off": "false"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +41,7 @@ class Strange:
     wanted: str
     advice: str | None = None
     meant: str | None = None  # of the names that there are, the one that it resembles
+    written: str | None = None  # what is to stand there in its place, quotes and all
 
 
 # ---- time ----
@@ -155,7 +160,11 @@ def strange_value(parameter: ParameterCode, value: Value | Bounds, program: Prog
         case "int" | "float":
             return _strange_number(value, domains, is_whole=kind == "int")
         case "bool":
-            return None if isinstance(value, bool) else Strange("true or false")
+            return (
+                None
+                if isinstance(value, bool)
+                else Strange("true or false", written=_TRUTHS.get(str(value).casefold()))
+            )
         case "enum":
             known = dict(program.enums).get(parameter.type.type_name, ())
             return _strange_name(value, _allowed([*known], domains), f"a value of `{parameter.type.type_name}`")
@@ -171,7 +180,9 @@ def strange_value(parameter: ParameterCode, value: Value | Bounds, program: Prog
 def _strange_number(value: Value | Bounds, domains: list[DomainConstant], *, is_whole: bool) -> Strange | None:
     what = "a whole number" if is_whole else "a number"
     if isinstance(value, bool | str):
-        return Strange(f"{what}, or a range of them")
+        quoted = _WHOLE if is_whole else _NUMBER
+        is_number = isinstance(value, str) and quoted.fullmatch(value.strip()) is not None
+        return Strange(f"{what}, or a range of them", written=str(value).strip() if is_number else None)
     lower, upper = value if isinstance(value, tuple) else (value, value)
     if math.isnan(lower) or (not isinstance(value, tuple) and math.isinf(lower)):
         return Strange(what)
@@ -199,7 +210,8 @@ def _strange_name(value: Value | Bounds, known: list[str] | None, what: str) -> 
     """A name is a text, and where they are known, one of the names that there are."""
     listed = ", ".join((known or [])[:_MOST_NAMED]) if known is not None else ""
     if not isinstance(value, str):
-        return Strange(f"{what}, in quotes", f"there are: {listed}" if listed else None)
+        there = f"there are: {listed}" if listed else None
+        return Strange(f"{what}, in quotes", there)
     if known is None or value in known:
         return None
     close = nearest(value, known)

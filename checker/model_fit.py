@@ -18,12 +18,12 @@ from checker.goal_fit import strange_value, too_long
 from checker.mission import Mission
 from checker.mission_table import describe
 from checker.named_objects import named_objects
-from checker.respelt import meant_name, respelt, rewritten
+from checker.respelt import meant_name, respelt, rewritten, written_anew
 from compiler.program import DomainConstant, ParameterSite, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import HALF_INF
-from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+from runtime.executive.configuration import AgentConfiguration, Bounds, ParameterConfiguration, Value
 from runtime.executive.expression import parse_expression
 
 _Bounds = tuple[float, float]
@@ -73,8 +73,10 @@ def _strange_arguments(
         path = ("goal", number, "parameters", name)
         if name not in known:
             span = mission.text.key_span(path)
-            advice = _advice(name, [*known], "parameters")
-            yield respelt(NO_ARGUMENT.at(span, predicate=predicate.name, name=name, help=advice), name, known)
+            meant = meant_name(name, known) or _taking(mission, number, predicate, value, program)
+            advice = f"did you mean `{meant}`?" if meant else _advice(name, [*known], "parameters")
+            complaint = NO_ARGUMENT.at(span, predicate=predicate.name, name=name, help=advice)
+            yield complaint if meant is None else rewritten(complaint, name, meant)
             continue
         strange = strange_value(known[name], value, program)
         if strange is not None:
@@ -86,7 +88,19 @@ def _strange_arguments(
             declared = known[name].span
             if strange.meant is not None:
                 code = rewritten(code, str(value), strange.meant)
+            elif strange.written is not None:
+                code = written_anew(code, strange.written)
             yield code if declared is None else replace(code, notes=(Note("declared here", declared),))
+
+
+def _taking(
+    mission: Mission, number: int, predicate: PredicateCode, value: Value | Bounds, program: Program
+) -> str | None:
+    """The only parameter without a value that can take one, where that is a text, which few can."""
+    given = {name for name, _ in mission.agent.goals[number].parameters}
+    left = [one for one in predicate.parameters if one.name not in given and one.type.kind in ("enum", "object")]
+    fitting = [one.name for one in left if strange_value(one, value, program) is None]
+    return fitting[0] if len(fitting) == 1 and isinstance(value, str) else None
 
 
 def sampling_misfits(mission: Mission, sites: Mapping[str, ParameterSite]) -> Iterator[Diagnostic]:

@@ -17,7 +17,7 @@ from checker.goal_fit import strange_value
 from checker.mission import Mission
 from checker.mission_table import describe
 from checker.named_objects import named_objects, resources_of
-from checker.respelt import meant_name, respelt, rewritten
+from checker.respelt import meant_name, respelt, rewritten, written_anew
 from compiler.program import TOKEN_TIMES, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic
 from runtime.executive.configuration import LevelPattern, PropertyConfiguration, TokenPattern
@@ -150,7 +150,11 @@ def _strange_values(
                     span, predicate=predicate.name, name=name, wanted=strange.wanted, found=describe(value),
                     help=strange.advice,
                 )  # fmt: skip
-                yield complaint if strange.meant is None else rewritten(complaint, str(value), strange.meant)
+                if strange.meant is not None:
+                    complaint = rewritten(complaint, str(value), strange.meant)
+                elif strange.written is not None:
+                    complaint = written_anew(complaint, strange.written)
+                yield complaint
 
 
 def _advice(name: str, known: list[str], what: str) -> str:

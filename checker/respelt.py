@@ -8,6 +8,7 @@ from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Span
 
+_COMPARING = re.compile(r"[<>=+*/-]")
 _PART = re.compile(r"""\"[^\"]*\"|'[^']*'|[^.\"']+""")
 
 
@@ -36,12 +37,24 @@ def respelt(complaint: Diagnostic, name: str, known: Collection[str]) -> Diagnos
 
 
 def rewritten(complaint: Diagnostic, name: str, meant: str) -> Diagnostic:
-    """`complaint` with a fix that writes `meant` for `name`, which stands there alone or behind a dot; quotes stay."""
+    """`complaint` with a fix that writes `meant` for `name`; quotes stay.
+
+    The name stands there alone, behind a dot, or wherever an expression has it as a word.
+    """
     span = complaint.span
     before, found, after = span.text.rpartition(name)
     is_last = before.strip("\"'") == "" or before.rstrip("\"'").endswith(".")
+    places = [len(before)]
     if not found or not is_last or after.strip("\"'") != "":
-        return complaint
-    start = span.start + len(before)
-    edit = Edit(Span(span.anchor, start, start + len(name)), meant)
-    return replace(complaint, fixes=(*complaint.fixes, Fix(f"write `{meant}`", (edit,), safe=False)))
+        places = [each.start() for each in re.finditer(rf"(?<![\w.]){re.escape(name)}(?![\w.])", span.text)]
+        if not places or _COMPARING.search(span.text) is None:
+            return complaint
+    starts = [span.start + at for at in places]
+    edits = tuple(Edit(Span(span.anchor, start, start + len(name)), meant) for start in starts)
+    return replace(complaint, fixes=(*complaint.fixes, Fix(f"write `{meant}`", edits, safe=False)))
+
+
+def written_anew(complaint: Diagnostic, text: str) -> Diagnostic:
+    """`complaint` with a fix that writes a text in place of all that it stands at."""
+    fix = Fix(f"write `{text}`", (Edit(complaint.span, text),), safe=False)
+    return replace(complaint, fixes=(*complaint.fixes, fix))

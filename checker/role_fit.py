@@ -10,7 +10,7 @@ from checker.mission import Mission
 from checker.named_objects import named_objects
 from checker.planner_fit import vain_requests
 from compiler.program import ClassCode, Constant, Program, SuperCode
-from nddl_lang.text.diagnostic import Diagnostic, Note
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Span
 from runtime.executive.workbench import Workbench
@@ -107,7 +107,12 @@ def _strange_default(program: Program, bench: Workbench, timeline: str) -> Diagn
     close = nearest(default, known)
     advice = f"did you mean `{close}`?" if close else f"predicates: {', '.join(known)}"
     notes = _declared(program, timeline)
-    return NO_DEFAULT.at(span, timeline=timeline, predicate=default, class_name=code.name, help=advice, notes=notes)
+    at = span.text.find(f'"{default}"') + 1
+    edit = Edit(Span(span.anchor, span.start + at, span.start + at + len(default)), close or "")
+    fixes = (Fix(f"write `{close}`", (edit,), safe=False),) if close and span.text.count(f'"{default}"') == 1 else ()
+    return NO_DEFAULT.at(
+        span, timeline=timeline, predicate=default, class_name=code.name, help=advice, notes=notes, fixes=fixes
+    )
 
 
 def _written(program: Program, code: ClassCode, default: str) -> Span | None:
