@@ -14,8 +14,6 @@ from runtime.plan.readout.names import TokenName, VariableName
 from runtime.plan.readout.statements import Argument, ResourceTerm, Term
 from runtime.solver.learning.attempts import Flaw, Resolver
 
-# ---- names ----
-
 
 @dataclass(frozen=True, slots=True)
 class SourcePlace:
