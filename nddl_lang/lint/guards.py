@@ -134,9 +134,9 @@ def _computed_in_place(
                 reference = part.reference(side) if isinstance(side, PathExpr) else None
                 if isinstance(reference, LocalReference) and reference.variable is variable:
                     values.append(other)
-    if len(values) != 1 or part.dialect is not Dialect.NDDLC or not isinstance(values[0], BinaryExpr | CallExpr):
+    value = values[0] if len(values) == 1 and part.dialect is Dialect.NDDLC else None
+    if not isinstance(value, BinaryExpr | CallExpr):
         return ()
-    (value,) = values
     names = [node for node in descendants(value) if isinstance(node, PathExpr)]
     if any(_narrowed(part, name, sampled) is not None for name in names):
         return ()
