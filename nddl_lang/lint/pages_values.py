@@ -68,7 +68,8 @@ VALUE_PAGES = (
     ),
     RulePage(
         UNCLOSED,
-        "The model has goals, or a mission flies it; it has variables that range over objects, and closes no class.",
+        "The model has goals, or a mission flies it; it has variables that range over objects, and closes no class. "
+        "Without either that is a hint: a mission may fly it.",
         "While further objects may join, no search decides which one is taken.",
         _ARM + "Arm helper;\nhelper != arm;\ngoal(arm.grab g);\n",
         _ARM + "Arm helper;\nhelper != arm;\nclose();\ngoal(arm.grab g);\n",

@@ -1,6 +1,7 @@
 """Find statements of the script that cannot come true: tokens outside the horizon, merges, objects never chosen."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from nddl_lang.analysis import Analysis
 from nddl_lang.lint.codes import IDLE_FACT, NEVER_PLANNED, NO_MERGE, OUTSIDE_HORIZON, UNCLOSED
@@ -28,11 +29,13 @@ from nddl_lang.syntax.nodes import (
     PathExpr,
     PredicateDecl,
     RuleDecl,
+    Statement,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note, Severity
 from nddl_lang.text.source import Span
 
+_CLOSE = "write `close();` after the last object is made"
 _DEFAULT_HORIZON = Interval(0, 100)
 
 
@@ -44,6 +47,8 @@ def lint_script(whole: Whole) -> Iterator[Diagnostic]:
     yield from _facts(whole, goals)
     if goals and whole.is_whole and whole.is_own(goals[0][0].node.span):
         yield from _unclosed(whole, goals[0][0])
+    elif not goals and whole.is_whole:
+        yield from _unclosed_without_goals(whole)
 
 
 # ---- the horizon ----
@@ -152,9 +157,8 @@ def _facts(whole: Whole, goals: list[tuple[Part, GoalStatement]]) -> Iterator[Di
 
 def _unclosed(whole: Whole, first: Part) -> Iterator[Diagnostic]:
     choices: list[Variable] = []
-    for part in whole.statements(MethodCall):
-        if isinstance(part.node, MethodCall) and part.node.method.name == "close":
-            return
+    if any(_closes(part.node) for part in whole.statements(MethodCall)):
+        return
     for part in whole.parts:
         for declaration in part.all(VariableDecl):
             for declarator in declaration.declarators:
@@ -165,28 +169,53 @@ def _unclosed(whole: Whole, first: Part) -> Iterator[Diagnostic]:
                         choices.append(variable)
     if choices:
         notes = (Note(f"`{choices[0].name}` waits for that", choices[0].span),)
-        yield UNCLOSED.at(first.node.span, notes=notes, help="write `close();` after the last object is made")
+        fixes = tuple(map(_closing, _makers(whole.parts)[-1:]))
+        yield UNCLOSED.at(first.node.span, notes=notes, help=_CLOSE, fixes=fixes)
+
+
+def _unclosed_without_goals(whole: Whole) -> Iterator[Diagnostic]:
+    """A hint: whether a mission flies the model, or another one includes it, is not known here."""
+    makers = _makers(whole.parts)
+    if makers and not any(_closes(part.node) for part in whole.statements(MethodCall)):
+        for found in _left_open(whole.parts, makers[-1]):
+            message = "no class is closed: in a mission no object would be chosen"
+            help_ = f"where a mission flies it, {_CLOSE}"
+            yield replace(found, severity=Severity.HINT, message=message, help=help_, fixes=())
 
 
 def unclosed_in_mission(analysis: Analysis) -> tuple[Diagnostic, ...]:
     """Tell of a model without goals of its own that a mission flies, where rules leave open which object is meant."""
-    if any(
-        isinstance(node, GoalStatement) or (isinstance(node, MethodCall) and node.method.name == "close")
-        for node in analysis.statements
-    ):
+    if any(isinstance(node, GoalStatement) or _closes(node) for node in analysis.statements):
         return ()  # with goals of its own `lint_script` says it
     parts = [Part(node, analysis.by_statement[node], analysis.dialect) for node in analysis.statements]
-    makers = [each.node for each in parts if isinstance(each.node, VariableDecl | Assignment) and each.all(NewExpr)]
-    choices = [variable for each in parts if isinstance(each.node, RuleDecl) for variable in _chosen_in(each)]
-    if not makers or not choices:
+    makers = _makers(parts)
+    if not makers:
         return ()
     last = next((one for one in reversed(makers) if one.span.source is analysis.loaded.root), makers[-1])
+    return suppress(analysis, tuple(_left_open(parts, last)), is_linted=False)
+
+
+def _makers(parts: Iterable[Part]) -> list[Statement]:
+    """The statements of a script that make objects."""
+    return [each.node for each in parts if isinstance(each.node, VariableDecl | Assignment) and each.all(NewExpr)]
+
+
+def _closes(node: Statement) -> bool:
+    return isinstance(node, MethodCall) and node.method.name == "close"
+
+
+def _left_open(parts: Iterable[Part], last: Statement) -> Iterator[Diagnostic]:
+    """The complaint, at the last statement that makes an object, where a rule leaves open which one is meant."""
+    choices = (variable for each in parts if isinstance(each.node, RuleDecl) for variable in _chosen_in(each))
+    if (first := next(choices, None)) is not None:
+        notes = (Note(f"`{first.name}` waits for that", first.span),)
+        yield UNCLOSED.at(last.span, notes=notes, help=_CLOSE, fixes=(_closing(last),))
+
+
+def _closing(last: Statement) -> Fix:
+    """`close();` behind a statement."""
     after = Span(last.span.anchor, last.span.end, last.span.end)
-    fix = Fix("close the classes here", (Edit(after, "\nclose();"),), safe=False)
-    notes = (Note(f"`{choices[0].name}` waits for that", choices[0].span),)
-    help_ = "write `close();` after the last object is made"
-    found = UNCLOSED.at(last.span, notes=notes, help=help_, fixes=(fix,))
-    return suppress(analysis, (found,), is_linted=False)
+    return Fix("close the classes here", (Edit(after, "\nclose();"),), safe=False)
 
 
 def _chosen_in(part: Part) -> Iterator[Variable]:
