@@ -9,7 +9,17 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from checker.single_values import single_value
 from compiler.instructions import branched_instructions
-from compiler.program import FIRST_PARAMETER, Child, LocalVariable, NewVariable, Operand, Post, RuleCode, TokenVariable
+from compiler.program import (
+    FIRST_PARAMETER,
+    Child,
+    Guard,
+    LocalVariable,
+    NewVariable,
+    Operand,
+    Post,
+    RuleCode,
+    TokenVariable,
+)
 from runtime.executive.outcome import Event
 
 _Value = float | int | bool | str
@@ -38,6 +48,32 @@ def children_asked_for(
     return frozenset(slots), None
 
 
+def left_out(
+    rule: RuleCode,
+    slots: Iterable[int],
+    names: tuple[Sequence[str], Sequence[str]],
+    request: Event,
+    token: Event,
+    numbers: Mapping[Operand, float | str],
+) -> list[Post]:
+    """The constraints that asked for none of some children: in branches that the token did not take, or untrue of it.
+
+    `names` are the parameters of the rule's predicate and of the child's.
+    """
+    own, theirs = names
+    found: list[Post] | None = None
+    for slot in slots:
+        known = {**numbers, **_arguments(0, own, token), **_arguments(slot, theirs, request)}
+        _fits(rule, slot, known)
+        out = [
+            step
+            for step, within in branched_instructions(rule.body)
+            if isinstance(step, Post) and (_is_left(within, known) or (within and not _agrees(step, known.copy())))
+        ]
+        found = out if found is None else [step for step in found if step in out]
+    return found or []
+
+
 def may_ask(
     rule: RuleCode, slot: int, names: Sequence[str], request: Event, numbers: Mapping[Operand, float | str]
 ) -> bool:
@@ -58,8 +94,16 @@ def _arguments(slot: int, names: Sequence[str], event: Event) -> _Known:
     }
 
 
+def _is_left(within: Iterable[tuple[Guard, bool]], known: _Known) -> bool:
+    """Whether one of the branches in which an instruction stands is not taken."""
+    return any(known.get(guard.condition, not is_else) is is_else for guard, is_else in within)
+
+
 def _fits(rule: RuleCode, slot: int, known: _Known) -> bool:
-    """Whether nothing that the rule says contradicts the values, and the branch of the child is taken."""
+    """Whether nothing that the rule says contradicts the values, and the branch of the child is taken.
+
+    What follows from them becomes `known`.
+    """
     steps = branched_instructions(rule.body)
     own = next((within for step, within in steps if isinstance(step, Child) and step.slot == slot), ())
     for guard, is_else in own:
@@ -69,7 +113,7 @@ def _fits(rule: RuleCode, slot: int, known: _Known) -> bool:
     while grows:
         count = len(known)
         for step, within in branched_instructions(rule.body):
-            if any(known.get(guard.condition, not is_else) is is_else for guard, is_else in within):
+            if _is_left(within, known):
                 if isinstance(step, Child) and step.slot == slot:
                     return False
                 continue

@@ -9,7 +9,7 @@ from collections.abc import Collection, Container, Iterable, Iterator, Mapping, 
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from checker.asked_children import children_asked_for, may_ask
+from checker.asked_children import children_asked_for, left_out, may_ask
 from checker.influence import Branch, InfluenceLine, branch_name, branch_of, line_of
 from checker.names import relative_name
 from checker.single_values import numbers_of, single_value
@@ -281,6 +281,9 @@ def _asking(
         parameters = _names(program, rule.predicate), _names(program, predicate)
         fitting, token = children_asked_for(rule, children, parameters, request, tokens, numbers)
         children = set(fitting)
+        if token is not None:
+            out = left_out(rule, fitting, parameters, request, token, numbers)
+            body = [step for step in body if step not in out]
     reached: set[Operand] = {TokenVariable(slot, at) for slot in children} if at >= 0 else set()
     posts: list[Post] = []
     grows = bool(reached)

@@ -2,7 +2,8 @@
 
 import pytest
 
-from checker.asked_children import children_asked_for, may_ask
+from checker.asked_children import children_asked_for, left_out, may_ask
+from checker.influence import line_of
 from checker.single_values import numbers_of, single_value
 from compiler.instructions import all_instructions
 from compiler.program import Child
@@ -60,6 +61,8 @@ def test_the_child_is_found_by_values_and_branches(n: int, split: bool, asked: d
             value = single_value(dict(request.arguments)["n"])
             assert isinstance(value, (int, float))
             found[int(value)] = {labels[slot] for slot in slots}
+            out = left_out(rule, slots, names, request, token, numbers)
+            assert any("On only" in line_of(one.span).text for one in out) is split
     assert found == asked
 
 

@@ -67,3 +67,6 @@ def test_the_line_of_the_planner_is_told_that_asked_a_simulator_for_too_much(ask
     line = text[: text.index("drive.distance")].count("\n") + 1 + (asking is BRANCHES)
     assert [(one.rule, one.place.file, one.place.line) for one in lines] == [("Survey.Leg", "planner.nddl", line)]
     assert lines_that_ask(element, programs, Path(models.agent.root), ()) == ()
+    # A branch that some token of the mission took is not that of the token which asked.
+    held = {"Leg", "Drive", "Scan"}
+    assert lines_that_ask(element, programs, Path(models.agent.root), held, None, result.outcome.events) == lines
