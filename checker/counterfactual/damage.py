@@ -110,9 +110,9 @@ def strayed_of(result: MissionResult, failed: MissionResult) -> float:
 
 
 def collapsed_of(result: MissionResult, failed: MissionResult) -> float:
-    """What a mission that passes does in a moment, and the failed one did not, or not yet: any limit is kept so."""
+    """What a mission that passes does in a moment, and the failed one did not: any limit is kept so."""
     before, after = _longest(failed), _longest(result)
-    return _COLLAPSED * min(sum(ticks <= 1 and before.get(name, _LONG) >= _LONG for name, ticks in after.items()), 2)
+    return _COLLAPSED * min(sum(ticks <= 1 and before.get(name, 0) >= _LONG for name, ticks in after.items()), 2)
 
 
 def _longest(result: MissionResult) -> dict[str, int]:

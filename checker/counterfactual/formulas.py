@@ -16,8 +16,11 @@ from checker.mutation.edits import EditSite, SmallEdit
 _TOKEN = re.compile(r"[A-Za-z_][\w.]*|\d[\w.]*|[-+*/()]|[^\s\w]")
 _CALL = re.compile(r"\s*(\w+)\s*\((.*)\)\s*;", re.DOTALL)
 _QUOTIENT = re.compile(r"/\s*[\w.]+$")
+_OPERAND = re.compile(r"[A-Za-z_][\w.]*|\d[\w.]*")
 _ROUNDING = ("ceil", "floor", "round")
 _OPERATORS = "+-*/"
+_UNITS = (10.0, 24.0, 60.0, 100.0, 1000.0, 3600.0)
+_PRODUCTS = ("mulEq", "multEq")
 _SUM, _ROUND, _NUMBER, _CONSTANT, _NAME, _SCALE = "sum", "rounded", "number", "constant", "name", "scale"
 _SCALING = re.compile(r"(?<![a-z])(?:rate|per|speed|factor|ratio|share|scale)(?![a-z])", re.IGNORECASE)
 # How often operands of two sorts are joined, before any line of the model is read.
@@ -55,6 +58,21 @@ class Formulas:
         """Whether an edit writes a sign beside a rate or share, which is hardly added but to get another one."""
         after = self._pairs(site.after(edit))
         return not _sets_scale(site.text) and any(self._sort(one) == _SCALE and one[1] == edit.new for one in after)
+
+    def divides_by_scale(self, edit: SmallEdit) -> bool:
+        """Whether an edit divides by a rate that its line multiplies with: it belongs on the other side of `==`."""
+        factor, _, other = edit.old.partition("*")
+        name = factor.strip()
+        is_moved = edit.new == f"{other.strip()} / {name}" and name in self._constants
+        return is_moved and (name in self._rates or _SCALING.search(name) is not None)
+
+    def repeats_factor(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether a product of something with a name becomes what has that name too: `mulEq(speed, time, SPEED)`."""
+        call = _CALL.fullmatch(site.after(edit))
+        if call is None or call.group(1) not in _PRODUCTS:
+            return False
+        *factors, product = (one.strip().rpartition(".")[2] for one in call.group(2).split(","))
+        return product == edit.new and any(is_kin(one, product) for one in factors)
 
     def place_odds(self, edit: SmallEdit, site: EditSite) -> float:
         """The same of the order of arguments or operands, by their places in other calls, too."""
@@ -112,14 +130,25 @@ class Formulas:
     def _sort(self, pair: _Pair) -> str:
         kinds = {self._kind(pair[0]), self._kind(pair[2])}
         sort = next(one for one in (_ROUND, _NUMBER, _CONSTANT, _NAME) if one in kinds)
-        named = [one for one in (pair[0], pair[2]) if one in self._constants]
-        is_scale = any(one in self._rates or _SCALING.search(one) is not None for one in named)
-        return _SCALE if is_scale and sort == _CONSTANT else sort
+        is_scale = any(one in self._rates or _SCALING.search(one) is not None for one in (pair[0], pair[2]))
+        return _SCALE if is_scale and sort in (_CONSTANT, _NAME) else sort
 
     def _kind(self, word: str) -> str:
         if word in (_ROUND, _SUM):
             return _ROUND if word == _ROUND else _NAME
         return _NUMBER if word[0].isdigit() else _CONSTANT if word in self._constants else _NAME
+
+
+def drops_number(edit: SmallEdit) -> bool:
+    """Whether an edit leaves out a number without a name, and nothing else: `degrees` for `10 * degrees`; no step."""
+    left_out = Counter(_OPERAND.findall(edit.old)) - Counter(_OPERAND.findall(edit.new))
+    return left_out.total() == 1 and all(one[0].isdigit() and one != "1" for one in left_out)
+
+
+def drops_unit(edit: SmallEdit) -> bool:
+    """Whether that number is one by which units differ: minutes and seconds, tonnes and kilograms."""
+    numbers = Counter(_OPERAND.findall(edit.old)) - Counter(_OPERAND.findall(edit.new))
+    return drops_number(edit) and all(float(one) in _UNITS for one in numbers)
 
 
 def divides_again(edit: SmallEdit) -> bool:

@@ -2,10 +2,11 @@
 
 What a goal asks that the conflict speaks of is tried in any case, and so is when goals may come of a reactor whose
 request set the time that the conflict speaks of. So are the times of goals whose rules fill a resource that the
-conflict finds too empty, of goals that began as late as they had to and were not over when the mission was, and of the
-one that leads to what a violated property promises by some time, if none leaves less time for its beginning. Of what
-else goals ask for, those are tried that lead to what changed a violated level, or to a broken plan, and the earliest
-goal that was not achieved; of a property its ticks.
+conflict finds too empty, of goals that began as late as they had to and were not over when the mission was, of one
+that is out of the order in which the others of its timeline are written, and of the one that leads to what a violated
+property promises by some time, if none leaves less time for its beginning. Of what else goals ask for, those are tried
+that lead to what changed a violated level, or to a broken plan, and the earliest goal that was not achieved; of a
+property its ticks.
 """
 
 import math
@@ -77,7 +78,7 @@ def mission_lines(
             is_supply = goal.predicate in supplying
             is_lost = (goal.timeline, goal.predicate) in given_up
             sites = [_warned(one, lines) for one in sites]
-            is_without_time = number in late or any(one.wanted for one in sites)
+            is_without_time = number in late or any(one.wanted or one.agreeing for one in sites)
             if not (is_lost or is_supply or broken or number in behind or is_without_time):
                 continue
             far = _SPOKEN + _AMONG if is_supply else _LOST if is_lost or is_without_time else _OTHERS

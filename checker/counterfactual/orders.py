@@ -17,6 +17,7 @@ _WAIT = re.compile(r"\s*(\w+)\.end\b[^<>=]*<=?\s*(\w+)\.start\b[^<>=]*;", re.DOT
 _WAITED = re.compile(r"\s*(\w+)\.start\b[^<>=]*>=?\s*(\w+)\.end\b[^<>=]*;", re.DOTALL)
 _MADE = re.compile(r"(?:contains|starts|ends|any)\s*\(\s*[\w.]+\s+(\w+)\s*\)")
 _TURNED = ("after", "met_by")
+_HOLDING = ("contains", "ends", "equals")  # the end of the other token is within the own one
 
 
 class Orders:
@@ -72,6 +73,12 @@ class Orders:
         if before is None or after is None or before.groups() != after.groups():
             return False
         return before.groups()[::-1] in self._related.get((site.file, site.scope), ())
+
+
+def lets_go(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether a token need not go on any more until one that it asks for is over: `contained_by` for `contains`."""
+    is_own = edit.kind is EditKind.RELATION and edit.begin == site.begin
+    return is_own and edit.old in _HOLDING and edit.new not in (*_HOLDING, "any")
 
 
 def is_order_turned(edit: SmallEdit, site: EditSite) -> bool:

@@ -37,6 +37,7 @@ from checker.mutation.labels import labels_of
 from checker.mutation.mission_edits import agent_with
 from checker.mutation.shared_objects import with_shared
 from checker.mutation.successors import with_successors
+from checker.mutation.told_by_text import with_told
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
 from checker.oracle import Verdict, given_up, judge_losses
 from checker.proofs.places import text_of
@@ -116,7 +117,7 @@ def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]
     sites = with_arguments(
         with_shared(list(found.values())), [read_text(root / name) or "" for name in agent.constraints]
     )
-    return with_successors(with_durations(with_additions(sites, labels_of(agent.goals, sites))))
+    return with_told(with_successors(with_durations(with_additions(sites, labels_of(agent.goals, sites)))))
 
 
 def _as_flown(missions: Missions, agent: AgentConfiguration) -> Missions:
@@ -197,6 +198,6 @@ def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult, most_seconds
         agent = agent_with(world.mission, agent, edit)
     load = partial(load_over, overlay, tells_on=False)
     agent = with_point(agent, mission.point)
-    keeps = bool(world.limits)  # a mission that passes may fail by these
-    result = world.flyer.fly(agent, mission.number, mission.seed, load, keeps_trace=keeps, most_seconds=most_seconds)
+    # What passes is asked what it did in a moment, and may fail by the limits.
+    result = world.flyer.fly(agent, mission.number, mission.seed, load, keeps_trace=True, most_seconds=most_seconds)
     return replace(result, judgement=judge_losses(result.judgement, result.losses, world.limits))

@@ -8,7 +8,7 @@ import math
 import re
 
 from checker.counterfactual.bounds import is_result_moved, sets_value
-from checker.counterfactual.formulas import divides_again
+from checker.counterfactual.formulas import divides_again, drops_number, drops_unit
 from checker.counterfactual.mentions import leaves_one
 from checker.counterfactual.moments import mixes_times, puts_times_right
 from checker.counterfactual.numbers import (
@@ -21,6 +21,7 @@ from checker.counterfactual.numbers import (
     is_whole,
     octaves,
 )
+from checker.counterfactual.orders import lets_go
 from checker.counterfactual.usage import Usage
 from checker.counterfactual.word_odds import EVENTS, SAMPLED, SIGNED, TRUTHS, is_asked_for, sign_of
 from checker.mutation.edits import EditSite, SmallEdit
@@ -32,6 +33,8 @@ _LOOSE = "any"  # the relation that demands nothing
 _TERM, _TERM_SOON = 3.0, 0.9  # of a sum or product without a part, and when that is tried
 _STRAY, _STRAY_SOON = 2.5, 1.2  # odds that a constant does not belong there which does elsewhere, and how much sooner
 _OWN_USE = 1.0  # odds that a constant is meant where it has its only use
+_BARE, _BARE_SOON = 1.0, 0.9  # the same of a bare number: of 11 faults with a part too much 9 had one too much
+_UNIT_SOON = 0.5  # how much sooner where the number is one by which units differ
 _REPEATED, _REPEATED_SOON = 0.5, -0.2  # the same where both parts are one name
 _MISSED = 2.0  # of a term or factor: of 445 faults two left one out, and 17 of 59 right models have what nothing reads
 _ADDED, _ADDED_SOON, _ADDED_LATER = 2.0, -0.4, 0.1  # of what nothing reads, and when: if a line speaks of it, if not
@@ -58,6 +61,7 @@ _OCTAVE = 0.15  # for each doubling of a constant
 _DIGIT = 0.1  # for each digit that a constant has more
 _IDLE = 2.5  # odds of a constant that nothing uses any more, or where the range of a draw is used as a number
 _RANGE = 4.0  # and of such a range in place of a number
+_FACTOR = 3.0  # odds that a product is not what one of its factors is called
 _KIN = 0.6  # odds for each point of affinity that a constant has more for a line than another
 _LAST_USE = 3.5  # odds that a constant is not declared for nothing
 _KIN_SOON = -0.2  # when a constant is tried that belongs better into a line
@@ -78,16 +82,20 @@ _EDGE = 2.0  # odds that few missions fail for a number, not for what is wrong i
 _ALIKE, _DOUBLED = 1.5, 0.7  # odds of a part that leaves the same name on both sides, or one name once
 _WISHED = 5.5  # of another wish: it is the user's
 _UNKNOWN = 3.0  # odds of a wish for what an object is made of, where none is made of what was wished
+_EXCHANGED = 2.0  # of operands that change places: of 505 faults by hand one difference and one quotient
+_SIGN = 1.5  # of a sign between operands: of 505 faults by hand four
 _QUOTIENT = 3.0  # of a quotient the other way round: its unit would be another
-_RESULT = 2.2  # of a result that changes places: other numbers by far come of it, and any limit is kept or none
+_RESULT = 3.2  # of a result that changes places: other numbers by far come of it, and any limit is kept or none
 _PROMISED = 4.5  # of another property: what it promises less always keeps
 _AGREES = 1.5  # odds that both sides of `==` are of one type
 _VALUE = 1.7  # of another value: few lines have one, so their number says little
 _CASE = 1.0  # odds that no two conditions of a rule ask for the same value
 _LAST_CASE = 2.0  # odds that no value of an enumeration is for nothing, where all others have their use
 _FREED = 2.0  # odds that a line which alone says what a variable is says it with `==`
+_LET_GO = 1.0  # odds that a token waits for the end of one it asks for, where something took too long
 _WRITTEN = 1.0  # odds that tokens come in the order in which a rule asks for them
 _AMONG = 0.4  # odds of each of so many constants for none of which anything speaks
+_OUT_OF_ORDER = 2.0  # of the time of a goal by which it is not where the others of its timeline would have it
 _UNLIKE = 1.5  # odds that a whole number is not mistaken for a real one, and a wish lies among those of its kind
 _NOTED = 1.7  # odds of a number that a comment names: 2 of 205 changed ones, 2 of 1,711 right ones
 _STATED = 2.0  # odds that a number is right which a comment names: 19 of 2,001 right ones, and no changed one
@@ -116,7 +124,8 @@ def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         return _TOLD_BY_TEXT
     form = _DROP if is_loosening(edit, site) else _form(edit, site, usage) + _structural(edit, usage)
     form += _MIXED * mixes_times(edit, site) - usage.measure(edit, site)
-    return form + _KINDS * math.log(max(usage.kinds[edit.kind], 1)) - _TWIN * usage.twins(edit, site)
+    rivals = EditKind.CONSTANT if edit.kind is EditKind.SETTING else edit.kind  # a setting is one number of many
+    return form + _KINDS * math.log(max(usage.kinds[rivals], 1)) - _TWIN * usage.twins(edit, site)
 
 
 def _is_told(edit: SmallEdit, site: EditSite, usage: Usage) -> bool:
@@ -140,13 +149,15 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.RELATION | EditKind.COMPARISON | EditKind.SIGN:
             freed = _FREED * usage.mentions.frees(edit, site) + _DENIED * usage.orders.denies(edit, site)
             freed -= _WRITTEN * usage.orders.as_written(edit, site)
+            freed += _LET_GO * (usage.is_late and lets_go(edit, site))
             scale = _SENSE * (edit.kind is EditKind.SIGN and usage.formulas.adds_scale(edit, site))
+            scale += _SIGN * (edit.kind is EditKind.SIGN and edit.old in SIGNED["sum"])  # few write one below zero
             unusual = _UNRELATED if edit.kind is EditKind.RELATION else _UNUSUAL
             return 1.0 + scale + unusual * usage.odds(edit, site) + freed
         case EditKind.LIMIT:
             belongs = _KIN * usage.gain(edit, site) - _LAST_USE * (usage.strands(edit) and not usage.is_swapped(edit))
             belongs += _AGREES * ((edit.begin, edit.new) in site.agreeing)
-            belongs -= _RANGE * (edit.new in usage.sampled)
+            belongs -= _RANGE * (edit.new in usage.sampled) + _FACTOR * usage.formulas.repeats_factor(edit, site)
             if belongs <= 0.0 and not usage.is_swapped(edit):
                 belongs -= _AMONG * math.log(len(site.rivals(edit, EditKind.LIMIT)))
             return 1.5 - _IDLE * usage.is_swapped(edit) - belongs
@@ -171,6 +182,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return (
                 _WISHED - _UNKNOWN * usage.is_of_object(edit, site) + _UNLIKE * ((edit.begin, edit.new) in site.unlike)
             )
+        case EditKind.PREDICATE if usage.flows.asks_for(edit, site):
+            return 0.0
         case EditKind.PREDICATE if edit.old in EVENTS:
             return 3.0 - _FLOW * (not usage.counts[edit.new])
         case EditKind.PREDICATE:
@@ -178,7 +191,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.ARGUMENTS if "/" in edit.old:
             return 1.0 + _QUOTIENT
         case EditKind.ARGUMENTS:
-            return 1.0 + usage.formulas.place_odds(edit, site)
+            return _EXCHANGED + usage.formulas.place_odds(edit, site) + _OBJECT * is_of_object(edit, site)
         case EditKind.OPERATOR | EditKind.FORMULA:
             return 3.0 + usage.formulas.odds(edit, site)
         case EditKind.MISSING:
@@ -187,6 +200,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.LINE:
             told = _TOLD * usage.mentions.is_found_out(said_of(edit.new).strip(), site)
             return told + (_HANDED_ON if is_namesake(edit.new) else _LINE)
+        case EditKind.MISSION if (edit.begin, edit.new) in site.agreeing:
+            return _OUT_OF_ORDER
         case EditKind.MISSION:
             return 3.0 + _UNLIKE * ((edit.begin, edit.new) in site.unlike)
         case EditKind.SETTING:
@@ -201,6 +216,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             odd = _NAMED * usage.affinity.drops_limit(edit, site)
             strays = usage.strays(edit, site)
             odd += _STRAY if strays > 0 else _OWN_USE * strays
+            odd += _BARE * drops_number(edit)
             return _TERM - odd - _ALIKE * usage.mentions.makes_alike(edit, site) - _DOUBLED * leaves_one(edit)
         case EditKind.VALUE:
             is_case = edit.old not in TRUTHS and not site.text.endswith(";")
@@ -242,6 +258,8 @@ def first_edits(site: EditSite, usage: Usage) -> list[tuple[float, SmallEdit]]:
 
 def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     match edit.kind:
+        case EditKind.MISSION if (edit.begin, edit.new) in site.agreeing:
+            return _KIN_SOON
         case EditKind.MISSION:
             return -1.0 if edit.old == "0" else None  # tried last
         case EditKind.NAME | EditKind.POINT | EditKind.TOKEN | EditKind.SIGN if puts_times_right(edit, site):
@@ -252,7 +270,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return None
         case EditKind.LIMIT if usage.is_swapped(edit):
             return -1.0
-        case EditKind.LIMIT if edit.new in usage.sampled:
+        case EditKind.LIMIT if edit.new in usage.sampled or usage.formulas.repeats_factor(edit, site):
             return _LATE
         case EditKind.LIMIT if (edit.begin, edit.new) in site.agreeing:
             return _KIN_SOON - 0.1 * usage.gain(edit, site)
@@ -270,6 +288,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.ARGUMENTS:
             odds = _UNUSUAL * usage.formulas.place_odds(edit, site)
             return _SWAPPED + _LATER * usage.passing + 0.5 * ("/" in edit.old) + odds
+        case EditKind.FORMULA if usage.formulas.divides_by_scale(edit):
+            return _KIN_SOON
         case EditKind.OPERATOR | EditKind.FORMULA:
             rare = _RECAST * (edit.kind is EditKind.FORMULA and len(edit.old) == 1)
             return 0.5 + rare + _UNUSUAL * usage.formulas.odds(edit, site) + _LATER * usage.passing
@@ -288,6 +308,7 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.TERM:
             is_alike = usage.mentions.makes_alike(edit, site) or _TWICE.fullmatch(edit.old)
             soon = _TERM_SOON - _DOUBLED * leaves_one(edit) - _STRAY_SOON * (usage.strays(edit, site) > 0)
+            soon -= _BARE_SOON * drops_number(edit) + _UNIT_SOON * drops_unit(edit)
             return _REPEATED_SOON if is_alike else soon + _LATER * usage.passing
         case EditKind.NAME if usage.mentions.says_the_same(edit, site):
             return _LATE
@@ -302,6 +323,8 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.VALUE:
             alike = len(site.rivals(edit, EditKind.VALUE))
             return -0.4 + _LATER * usage.passing + _UNUSUAL * math.log(alike)  # one of many is meant less often each
+        case EditKind.PREDICATE if usage.flows.asks_for(edit, site):
+            return -1.0  # seen without any flight
         case EditKind.PREDICATE if edit.old in EVENTS:
             return _SIDE
         case EditKind.POINT | EditKind.TOKEN:

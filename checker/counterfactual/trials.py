@@ -92,7 +92,8 @@ def try_out(
             if is_spoken and is_order_turned(edit, candidate.site):
                 at = min(at, _TURNED)
             elif edit.kind is not EditKind.SWAP:
-                way = edit.begin, edit.kind is EditKind.SETTING and is_raised(edit)  # either way may be right
+                is_apart = edit.kind is EditKind.TERM or (edit.kind is EditKind.SETTING and is_raised(edit))
+                way = edit.begin, is_apart  # either way of a setting may be right; a term is more than where it begins
                 at += _TURN * earlier[way] + _PLACE * len(earlier) * (edit.kind is not EditKind.VALUE)
                 earlier[way] += 1
             if edit.kind is EditKind.NAME and not usage.is_fitting(edit, candidate.site):

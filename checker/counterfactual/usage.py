@@ -10,6 +10,7 @@ from checker.counterfactual.affinity import WORD, Affinity, is_kin
 from checker.counterfactual.bounds import Directions
 from checker.counterfactual.dimensions import Dimensions
 from checker.counterfactual.distinct import Distinct
+from checker.counterfactual.flows import Flows
 from checker.counterfactual.formulas import Formulas
 from checker.counterfactual.mentions import Mentions, is_doubled
 from checker.counterfactual.moments import TimeLimits
@@ -53,7 +54,7 @@ class Usage:
 
     `meant` counts relations, comparisons and signs by the sort of line that they stand in, `sums` signs by what they
     stand between; `sampled` are the ranges of draws.
-    `passing` is the share of missions of these models that pass.
+    `passing` is the share of missions of these models that pass, `is_late` whether those fail for what took too long.
     """
 
     counts: Counter[str]
@@ -71,10 +72,12 @@ class Usage:
     limits: TimeLimits
     distinct: Distinct
     dimensions: Dimensions
+    flows: Flows
     made: Container[str] = ()  # the numbers and names that objects are made of
     chosen: Container[str] = ()  # the parameters that lines hold equal to a member of an object
     messages: Mapping[str, Container[float]] = field(default_factory=dict)  # numbers, by constants of the same line
     passing: float = 0.0
+    is_late: bool = False
 
     def is_of_object(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether objects are made of what an edit writes, and none of what stood there, and lines hold these equal."""
@@ -238,10 +241,12 @@ def usage_of(
         directions,
         *lines,
         dimensions,
+        Flows(sites),
         made,
         _chosen_by(sites),
         messages,
         passing,
+        is_late,
     )
 
 

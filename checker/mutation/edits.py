@@ -14,7 +14,7 @@ from checker.mutation.copies import copied_names, said_before
 from checker.mutation.exchanges import exchangeable, exchanged, misplaced, recast, shortened, turned
 from checker.mutation.kinds import NUMERIC, EditKind
 from checker.mutation.missing_lines import missing_lines
-from checker.mutation.names import other_names, other_points, other_tokens, other_values, tautologies
+from checker.mutation.names import renamings, tautologies
 from checker.mutation.scope import LineScope, Scopes
 from checker.mutation.swaps import Rows, swapped_branches, swapped_rows
 from nddl_lang.semantics.constraints import CONSTRAINTS
@@ -290,7 +290,9 @@ class _Reader:
         for node in descendants(root):
             if node not in apart:
                 seen = {(node.span, node.span.text)} | empty  # 9 halved is 9 less 5
-                renamed = self._renamed(node, names) if not sampled else ()  # draws are the world's
+                renamed = (
+                    renamings(node, names, self._scopes, self._types) if not sampled else ()
+                )  # draws are the world's
                 for kind, span, new in (*self._changes(node), *renamed):
                     if new != span.text and (span, new) not in seen:
                         seen.add((span, new))
@@ -303,21 +305,6 @@ class _Reader:
             if isinstance(lower, IntLiteral | FloatLiteral) and isinstance(upper, IntLiteral | FloatLiteral):
                 yield from ((span, new) for _, span, new in self._changes(lower) if float(new) > upper.value)
                 yield from ((span, new) for _, span, new in self._changes(upper) if float(new) < lower.value)
-
-    def _renamed(self, node: Any, names: LineScope) -> Iterator[tuple[EditKind, Span, str]]:
-        """What else may be named in a rule; nothing outside of rules."""
-        for kind, found in (
-            (EditKind.VALUE, other_values(node, names)),
-            (EditKind.NAME, other_names(node, names)),
-            (EditKind.NAME, self._types.others(node, names)),
-            (EditKind.POINT, other_points(node, names)),
-            (EditKind.TOKEN, other_tokens(node, names)),
-        ):
-            for span, new in found:
-                yield kind, span, new
-        for child in node.created if isinstance(node, Relation) else ():
-            for other in self._scopes.kind(names, child.path).others if names.owner else ():
-                yield EditKind.PREDICATE, child.path.parts[-1].span, other
 
     def _changes(self, node: Any) -> Iterator[tuple[EditKind, Span, str]]:
         match node:

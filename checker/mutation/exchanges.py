@@ -62,7 +62,12 @@ def shortened(node: BinaryExpr) -> Iterator[tuple[Span, str]]:
 
 
 def recast(node: BinaryExpr) -> Iterator[tuple[Span, str]]:
-    """Another operator, and two that follow each other each in the other's place: `a * b - c` for `a - b * c`."""
+    """Another operator, and two that follow each other each in the other's place: `a * b - c` for `a - b * c`.
+
+    Of a product also the one divided by the other: the factor belongs on the other side of the equation.
+    """
+    if node.op == "*" and isinstance(node.left, _SINGLE) and isinstance(node.right, _SINGLE):
+        yield node.span, f"{node.right.span.text} / {node.left.span.text}"
     yield from ((node.op_span, other) for other in _OTHER_OPERATORS.get(node.op, ""))
     for inner in (node.left, node.right) if node.op in _OTHER_OPERATORS else ():
         if isinstance(inner, BinaryExpr) and inner.op in _OTHER_OPERATORS and inner.op != node.op:

@@ -10,7 +10,7 @@ from itertools import pairwise
 from typing import Any
 
 from checker.mutation.scope import LineScope, Shape
-from nddl_lang.syntax.nodes import Relation
+from nddl_lang.syntax.nodes import Relation, VariableDecl
 from nddl_lang.text.source import Span
 
 _OWN_END = re.compile(r"(?<![\w.])(?:end|duration)\b")
@@ -34,20 +34,39 @@ _AROUND = ("contained_by", "met_by", "after", "starts_during", "ends_during")
 
 
 def missing_lines(statement: Any, rule: Span, names: LineScope, made: dict[str, Shape]) -> Iterator[tuple[Span, str]]:
-    """Lines that may follow a relation, which has `made` tokens; `names` are what may be named behind it."""
+    """Lines that may follow a relation, which has `made` tokens; `names` are what may be named behind it.
+
+    What an object is made of is handed on where it is chosen: `window.field == field;`.
+    """
+    behind = Span(statement.span.anchor, statement.span.end, statement.span.end)
+    if isinstance(statement, VariableDecl):
+        chosen = statement.declarators[-1].name.name
+        for member, kind in names.members.get(names.variables.get(chosen, ""), {}).items():
+            if names.variables.get(member) == kind and not _is_said(f"{chosen}.{member}", rule.text):
+                yield behind, f" {chosen}.{member} == {member};"
     if not isinstance(statement, Relation) or statement.relation.name in _AROUND:
         return
-    behind = Span(statement.span.anchor, statement.span.end, statement.span.end)
     for label, shape in made.items():
         for parameter, kind in shape.parameters.items():
             if names.is_value(kind) and not re.search(rf"\b{label}\s*\.\s*{parameter}\b", rule.text):
                 for value in _values(label, kind, names):
                     yield behind, f" {label}.{parameter} == {value};"
+            elif names.is_value(kind) and not _is_said(f"{label}.{parameter}", rule.text):
+                for value in _values(label, kind, names):  # it is read, and nothing says what it is
+                    if value.rpartition(".")[2] == parameter:
+                        yield behind, f" {label}.{parameter} == {value};"
         if not shape.is_event and not _is_ended(rule.text):
             yield behind, f" {label}.end == end;"
         yield from ((behind, f" {before} before {label};") for before, after in _gaps(rule.text) if after == label)
         if statement.relation.name == _ANYHOW:
             yield from ((behind, f" {one} meets {other};") for one, other in _unrelated(label, rule.text))
+
+
+def _is_said(name: str, rule: str) -> bool:
+    """Whether a line of a rule holds a variable to something, by itself on one side of a comparison or in a call."""
+    path = re.escape(name)
+    lines = re.split("[;{}]", _COMMENT.sub("", rule))
+    return any(re.search(rf"^\s*{path}\s*[<>=!]|[<>=]\s*{path}\s*(?::|$)|\(.*\b{path}\b.*\)", line) for line in lines)
 
 
 def _unrelated(label: str, rule: str) -> Iterator[tuple[str, str]]:

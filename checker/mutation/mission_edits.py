@@ -113,7 +113,20 @@ def _times(mission: Mission, number: int) -> Iterator[EditSite]:
             if key == "start" and before:
                 others.append(f"[{max(before)}, {bounds[1]}]")
             others.append(f"[{bounds[0]}, {final}]")
-            yield _site(text, path, EditKind.MISSION, list(dict.fromkeys(others)))
+            site = _site(text, path, EditKind.MISSION, list(dict.fromkeys(others)))
+            is_odd = key == "start" and _breaks_order(mission.agent.goals, number)
+            yield replace(site, agreeing=frozenset((one.begin, one.new) for one in site.edits if is_odd))
+
+
+def _breaks_order(goals: Sequence[GoalConfiguration], number: int) -> bool:
+    """Whether the goals of a timeline would be written in the order of their times if it were not for one.
+
+    So they are on 30 of 36 timelines of right missions.
+    """
+    mine = [at for at, one in enumerate(goals) if one.timeline == goals[number].timeline and one.start is not None]
+    times = {at: one.start[0] for at, one in enumerate(goals) if one.start is not None}
+    rest = [times[at] for at in mine if at != number]
+    return len(mine) >= _SERIES and rest == sorted(rest) and (whole := [times[at] for at in mine]) != sorted(whole)
 
 
 def _promised(text: MissionText, number_of: int, kept: PropertyConfiguration) -> Iterator[EditSite]:

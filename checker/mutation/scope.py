@@ -182,6 +182,19 @@ class Scopes:
         others = tuple(one for one in known if mine.items() <= self._parameters(owner, one).items())
         return Shape(mine, others, any(predicate in one.events for one in self._line(owner)))
 
+    def called(self, label: str, owner: str, predicate: str) -> list[str]:
+        """The predicates of other classes whose name a token has that is of one with another name."""
+        name = label.lower()
+        kind = self._classes.get(owner)
+        if kind is None or kind.events or name in predicate.lower() or predicate.lower() in name:
+            return []
+        return [
+            f"{other}.{known}"
+            for other, one in self._classes.items()
+            for known in sorted(one.predicates)
+            if other != owner and known.lower() == name and not one.events
+        ]
+
     def _declared(self, body: Iterable[Any]) -> dict[str, str]:
         return {
             each.name.name: self._typedefs.get(one.type_name.name, one.type_name.name)

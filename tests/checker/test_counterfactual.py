@@ -1,5 +1,6 @@
 """Faults are put into the GPS mission, and the line is found among its causes; every claim has been flown."""
 
+import math
 import shutil
 from collections.abc import Iterator
 from functools import partial
@@ -9,6 +10,7 @@ import pytest
 
 from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
+from checker.batch.worker import Task
 from checker.counterfactual.candidates import candidates_of
 from checker.counterfactual.damage import damage_of
 from checker.counterfactual.dependence import Dependence
@@ -114,6 +116,22 @@ def test_a_claim_passes_its_trial_when_it_is_flown_again(tmp_path: Path, flyer: 
         Path(one.edit.file).write_text(text)
         assert again.verdict is Verdict.PASS
         assert damage_of(again) <= one.damage
+
+
+def test_a_trial_that_passes_tells_what_happened(tmp_path: Path, flyer: Flyer, monkeypatch: pytest.MonkeyPatch) -> None:
+    flown: list[MissionResult] = []
+    fly = flyer.fly_task
+
+    def recorded(task: Task, most_seconds: float = math.inf) -> MissionResult:
+        flown.append(fly(task, most_seconds))
+        return flown[-1]
+
+    faulty = Faulty(tmp_path, flyer, "SURFACE_MAX = 64", "SURFACE_MAX = 30")
+    monkeypatch.setattr(flyer, "fly_task", recorded)
+    find_causes(faulty.missions, faulty.world, Bounds(flights=2))
+    passed = [one for one in flown if one.verdict is Verdict.PASS]
+    assert passed
+    assert all(one.outcome is not None and one.outcome.events for one in passed)  # what takes no time is seen there
 
 
 def test_trials_keep_to_their_bounds_and_can_be_ended(tmp_path: Path, flyer: Flyer) -> None:

@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 
 from checker.counterfactual.mission_lines import mission_lines
+from checker.counterfactual.smallness import cost_of
+from checker.counterfactual.usage import usage_of
 from checker.mission import Mission, read_mission
 from checker.mutation.kinds import EditKind
 from checker.mutation.mission_edits import agent_with, mission_sites
@@ -296,3 +298,23 @@ def promising(folder: Path, promise: str) -> Mission:
     mission, found = read_mission(path)
     assert mission is not None, found
     return mission
+
+
+@pytest.mark.parametrize(
+    ("starts", "odd"), [((5, 180, 160), {1, 2}), ((5, 180, 360), set()), ((5, 360, 180, 420), {1, 2})]
+)
+def test_a_goal_out_of_the_order_of_its_timeline_may_have_another_window(
+    tmp_path: Path, starts: tuple[int, ...], odd: set[int]
+) -> None:
+    (tmp_path / "lock.nddl").write_text(MODEL, encoding="utf-8")
+    head, goal = MISSION.partition("[[goal]]")[0], MISSION[MISSION.index("[[goal]]") : MISSION.index("[check]")]
+    goals = "".join(goal.replace("[10, 20]", f"[{start}, 900]") for start in starts)
+    (tmp_path / "mission.toml").write_text(head.replace("100", "900") + goals + "[check]\n", encoding="utf-8")
+    mission, complaints = read_mission(tmp_path / "mission.toml")
+    assert mission is not None, complaints
+    found = mission_sites(mission)
+    assert {at for (table, at), sites in found.items() if table == "goal" if any(one.agreeing for one in sites)} == odd
+    usage = usage_of([])
+    sites = [found["goal", at][0] for at in range(len(starts))]
+    costs = [cost_of(site.edits[0], site, usage) for site in sites]
+    assert all((costs[at] < max(costs)) == (at in odd) for at in range(len(starts))) or not odd
