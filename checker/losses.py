@@ -23,6 +23,7 @@ class GoalFate(StrEnum):
     LATE = "late"  # its time was over before it could begin
     REJECTED = "rejected"  # for any other reason
     OPEN = "open"  # not sent, waiting or running when the mission ended
+    RECALLED = "recalled"  # the mission file took it back before it was achieved
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,6 +163,8 @@ def losses_of(outcome: Outcome) -> Losses:
                     into.append((waiting.pop(number), event.reason))
             case EventKind.RECALL if number is not None:
                 waiting.pop(number, None)
+                if (goal := goals.get(-1 - number)) is not None and goal.fate is GoalFate.OPEN:
+                    goals[goal.number] = GoalEnd(goal.number, GoalFate.RECALLED, event.tick)
             case EventKind.RELAX:
                 repairs.append(event)
             case EventKind.KILL:

@@ -24,7 +24,7 @@ def damage_of(result: MissionResult, is_cut: bool = False, unknown: frozenset[in
     the mission ends, open goals may be achieved yet. Goals by number that are `unknown` do not weigh.
     """
     losses = result.losses
-    kept = (GoalFate.ACHIEVED, GoalFate.OPEN) if is_cut else (GoalFate.ACHIEVED,)
+    kept = (GoalFate.ACHIEVED, GoalFate.RECALLED, *((GoalFate.OPEN,) if is_cut else ()))
     goals = sum(one.fate not in kept and one.number not in unknown for one in losses.goals)
     return HEAVY * goals + math.log2(1.0 + losses.lost + losses.dropped + 0.5 * losses.repaired)
 

@@ -1,6 +1,6 @@
 """What a batch cost, in words and as data: goals lost, plans repaired, requests not met."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -40,7 +40,7 @@ def goal_line(tally: Tally) -> str:
     optional = "all of them optional" if tally.optional == every else f"{tally.optional} of them optional"
     if every == 1:
         optional = "optional" if tally.optional else "mandatory"
-    fates = ", ".join(f"{tally.count(fate)} {fate.value}" for fate in GoalFate)
+    fates = ", ".join(f"{count} {fate}" for fate, count in _told((fate, tally.count(fate)) for fate in GoalFate))
     return f"goals: {fates} ({counted(every, 'goal')} a mission, {optional})"
 
 
@@ -110,7 +110,7 @@ def _given_up(tally: Tally) -> list[GoalTally]:
 def tally_data(tally: Tally, excerpts: Excerpts) -> dict[str, Any]:
     """The losses of a batch as data."""
     return {
-        "goals": {fate.value: tally.count(fate) for fate in GoalFate},
+        "goals": dict(_told((fate, tally.count(fate)) for fate in GoalFate)),
         "optional_goals": tally.optional,
         "mandatory_goals": len(tally.goals) - tally.optional,
         "repairs": tally.repaired,
@@ -137,6 +137,11 @@ def tally_data(tally: Tally, excerpts: Excerpts) -> dict[str, Any]:
     }
 
 
+def _told(counts: Iterable[tuple[GoalFate, int]]) -> Iterator[tuple[str, int]]:
+    """How many goals ended in each way; a mission file that takes none back need not tell of that."""
+    yield from ((fate.value, count) for fate, count in counts if count or fate is not GoalFate.RECALLED)
+
+
 def _goal(number: int, goal: GoalTally, excerpts: Excerpts) -> dict[str, Any]:
     return {
         "goal": number,
@@ -144,7 +149,7 @@ def _goal(number: int, goal: GoalTally, excerpts: Excerpts) -> dict[str, Any]:
         "predicate": goal.goal.predicate,
         "mandatory": goal.goal.mandatory,
         "place": place_data(goal.place, excerpts),
-        **{fate.value: count for fate, count in goal.counts},
+        **dict(_told(goal.counts)),
         "reasons": [{"reason": reason_text(reason), "count": count} for reason, count in goal.reasons],
         "example": goal.example,
     }
@@ -166,7 +171,7 @@ def _unmet(one: UnmetTally, fate: str) -> dict[str, Any]:
 def mission_losses(result: MissionResult, tally: Tally) -> dict[str, Any]:
     """The losses of one mission as data; goals that were never sent count as open."""
     losses = result.losses
-    fates = {fate.value: losses.count(fate) for fate in GoalFate}
+    fates = dict(_told((fate, losses.count(fate)) for fate in GoalFate))
     fates[GoalFate.OPEN.value] = len(tally.goals) - sum(losses.count(fate) for fate in GoalFate if fate != "open")
     given_up = [one for one in losses.goals if one.fate in (GoalFate.LATE, GoalFate.REJECTED)]
     return {

@@ -49,13 +49,15 @@ def test_every_fate_of_goals_and_requests_is_read_from_the_trace() -> None:
     late, full = Reason(ReasonKind.TOO_LATE), Reason(ReasonKind.REJECTED)
     found = losses_of(
         outcome(
-            *(event(EventKind.REQUEST, 0, number, timeline="nav") for number in (-1, -2, -3, -4, -6)),
+            *(event(EventKind.REQUEST, 0, number, timeline="nav") for number in (-1, -2, -3, -4, -6, -7, -8)),
             event(EventKind.REQUEST, 1, 5, reactor="a", timeline="gps", predicate="On"),
             event(EventKind.REQUEST, 1, 6, reactor="a", timeline="gps", predicate="On"),
             event(EventKind.REQUEST, 1, 7, reactor="a", timeline="helm", predicate="Go"),
             event(EventKind.REQUEST, 1, 8, reactor="a", timeline="helm", predicate="Go"),
             event(EventKind.REQUEST, 1, 9, reactor="a", timeline="helm", predicate="Go"),
             event(EventKind.RECALL, 2, 8),
+            event(EventKind.RECALL, 2, -7),
+            event(EventKind.RECALL, 2, -8),
             event(EventKind.REJECT, 3, -2, reason=full),
             event(EventKind.REJECT, 3, -3, reason=full),
             event(EventKind.RELAX, 3, reactor="a", reason=Reason(ReasonKind.NO_PLAN)),
@@ -64,6 +66,7 @@ def test_every_fate_of_goals_and_requests_is_read_from_the_trace() -> None:
             event(EventKind.REJECT, 5, 6, reason=full),
             event(EventKind.ACHIEVED, 6, -1),
             event(EventKind.ACHIEVED, 6, -3),
+            event(EventKind.ACHIEVED, 6, -8),  # it had begun
             event(EventKind.REFUSE, 7, -4, reason=late),
             event(EventKind.OBSERVATION, 7, reactor="b", timeline="helm", predicate="Failed"),
             event(EventKind.ACHIEVED, 7, 9),
@@ -78,6 +81,8 @@ def test_every_fate_of_goals_and_requests_is_read_from_the_trace() -> None:
         2: (GoalFate.ACHIEVED, 6),
         3: (GoalFate.LATE, 7),
         5: (GoalFate.REJECTED, 8),
+        6: (GoalFate.RECALLED, 2),
+        7: (GoalFate.ACHIEVED, 6),
     }
     assert (found.repaired, found.requests, found.lost, found.dropped) == (2, 5, 2, 1)
     assert [(one.timeline, one.kind) for one in found.undelivered] == [

@@ -101,7 +101,7 @@ def test_no_object_takes_keys_that_it_does_not_name(name: str) -> None:
 @pytest.mark.parametrize("kind", ENUMERATIONS, ids=lambda kind: kind.__name__)
 def test_the_words_are_those_of_the_code(kind: type[Enum]) -> None:
     words = [member.value for member in kind]
-    some = [one for one in words if one not in ("achieved", "open")] if kind is GoalFate else words
+    some = [one for one in words if one not in ("achieved", "open", "recalled")] if kind is GoalFate else words
     assert json.dumps(some) in json.dumps([schema(name) for name in SCHEMAS])
 
 
