@@ -93,7 +93,7 @@ class Formulas:
     def _weight(self, pair: _Pair, own: int, sets_scale: bool) -> float:
         """Logarithm of the share of an operator among those that join such operands, its `own` mention left out."""
         left, operator, right = pair
-        sort = self._sort(pair)
+        sort = counted = self._sort(pair)
         if sort == _SCALE and sets_scale:
             sort = _CONSTANT
         is_kin_pair = {self._kind(left), self._kind(right)} == {_CONSTANT, _NAME} and is_kin(
@@ -103,7 +103,7 @@ class Formulas:
         for one in _OPERATORS:
             mine = own * (one == operator)
             named = self._same[_plain(left, one, right)] - mine if left and right else 0
-            usual = _USUAL[sort][one] + self._sorts[sort, one] - mine
+            usual = _USUAL[sort][one] + self._sorts[sort, one] - mine * (sort == counted)
             counts[one] = usual + _SAME * named + _KIN * (is_kin_pair and one == "*")
         return math.log(counts[operator] / sum(counts.values()))
 

@@ -35,6 +35,7 @@ class Tap extends AgentTimeline {
 class Crop extends AgentTimeline {
   predicate Grows { }
   predicate Tend { int number; int bales; int litres; float time; float speed; }
+  predicate Sow { float speed; }
   predicate Refill { int bales; }
   predicate Sell { int bales; }
   Crop(Mode m) { super(m, "Grows"); }
@@ -56,6 +57,10 @@ Crop::Tend {
   if (day > 4.0) { give.duration <= 9; } else { give.duration <= 8; }
   if (day < WARM) { airing.duration <= 9; } else { airing.duration <= 8; }
   if (day < COLD) { airing.duration <= 9; } else { airing.duration <= 8; }
+}
+Crop::Sow {
+  float rate;
+  rate == TROLLEY_SPEED / speed;
 }
 Crop::Refill { any(yard.consume more); more.quantity == bales; }
 Crop::Sell { any(yard.consume gone); gone.quantity == bales; }
@@ -145,3 +150,9 @@ def test_a_product_is_not_what_its_factor_is_called(sites: list[EditSite], usage
     assert speed[0].kind is EditKind.LIMIT
     assert delay_of(*speed, usage) == 3.0  # when all likelier changes have been tried
     assert cost_of(*speed, usage) > cost_of(*found(sites, line, "HEIGHT", "TRUCK"), usage)
+
+
+def test_a_rate_may_be_a_quotient_of_rates_however_seldom_that_is(sites: list[EditSite], usage: Usage) -> None:
+    turned = found(sites, "rate == TROLLEY_SPEED / speed;", "TROLLEY_SPEED / speed", "speed / TROLLEY_SPEED")
+    assert delay_of(*turned, usage) is not None  # its only quotient is this one
+    assert cost_of(*turned, usage) > 4.0
