@@ -145,7 +145,7 @@ class Dispatch:
         if token != self.next_request(line):
             return self._waits_until(line, tick)
         free = free_at(bench, token, line.current, tick)
-        return INFINITY if free < INFINITY and follows_late(bench, token, tick) else free
+        return free if free == INFINITY else max(free, follows_late(bench, token, tick))
 
     def due_time(self, line: TimelineState, token: int, tick: int) -> float:
         """The tick at which the owner is to be asked for a token (T-REX 1.8).

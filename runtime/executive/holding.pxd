@@ -14,8 +14,8 @@ cdef long long SPAN_CLOCK, SPAN_EXECUTIVE, START, SUPPORT_EDGE, SUPPORT_RESTRICT
 @cython.locals(ends=list, start="long long")
 cpdef bint is_blocked(Workbench bench, long long t, long long current, long long tick) except -1
 
-@cython.locals(engine=Engine, i="long long", start="long long", v="long long")
-cpdef bint follows_late(Workbench bench, long long t, long long tick) except -1
+@cython.locals(ends="long long", engine=Engine, free=double, i="long long", start="long long", v="long long")
+cpdef double follows_late(Workbench bench, long long t, long long tick) except? -1.0
 
 cpdef bint hangs_on_action(Workbench bench, long long t) except -1
 
@@ -47,13 +47,19 @@ cpdef bint begin_together(Workbench bench, long long t, long long other) except 
 cpdef list _awaited_ends(Workbench bench, long long t, long long current, long long tick)
 
 @cython.locals(e="long long", engine=Engine, i="long long", met=SparseSet, v="long long")
-cpdef void _gather_followed(Workbench bench, long long t, long long tick) except *
+cpdef void _gather_followed(Workbench bench, long long t, long long tick, bint is_far) except *
 
 @cython.locals(_="long long", engine=Engine, other="long long", plan=Plan, support="long long", v="long long")
 cpdef bint _is_held_back(Workbench bench, long long t, long long current, long long tick) except -1
 
-@cython.locals(other="long long", plan=Plan)
+@cython.locals(other="long long")
 cpdef bint _begins_late(Workbench bench, long long v, long long t) except -1
+
+@cython.locals(engine=Engine, is_open=bint, length="long long", other="long long")
+cpdef bint _ends_late(Workbench bench, long long v, long long t) except -1
+
+@cython.locals(plan=Plan)
+cpdef bint _is_own(Workbench bench, long long v, long long name) except -1
 
 @cython.locals(other="long long", plan=Plan)
 cpdef bint _is_awaited(Workbench bench, long long v, long long t, long long current, long long tick) except -1

@@ -19,18 +19,26 @@ def is_blocked(bench: Workbench, t: int, current: int, tick: int) -> bool:
     return len(ends) > 0 or _is_held_back(bench, t, current, tick)
 
 
-def follows_late(bench: Workbench, t: int, tick: int) -> bool:
-    """Whether `t` is to begin after something of this reactor that has not begun, and begins as late as it may.
+def follows_late(bench: Workbench, t: int, tick: int) -> float:
+    """The first tick at which `t` follows nothing that this reactor begins, or ends, as late as it may, and has not yet.
 
     An owner that begins `t` before that breaks the plan. What must begin when that does, at the latest, cannot wait.
+    `INFINITY` if time alone does not bring it about; an end comes nearer to its latest by no more than one tick a tick.
     """
-    engine, start = bench.engine, bench.start(t)
-    _gather_followed(bench, t, tick)
+    engine, start, free, ends = bench.engine, bench.start(t), float(tick), 0
+    _gather_followed(bench, t, tick, True)
     for i in range(1, bench.met.count):
         v = bench.met.items[i]
         if _begins_late(bench, v, t) and engine.upper(v) < engine.upper(start) and not _may_follow(bench, v, start, 0):
-            return True
-    return False
+            return INFINITY
+        ends += _ends_late(bench, v, t)
+    if ends:  # but for what ends as something else of its own begins
+        _gather_followed(bench, t, tick, False)
+        for i in range(1, bench.met.count):
+            v = bench.met.items[i]
+            if _ends_late(bench, v, t) and not _may_follow(bench, v, start, 0):
+                free = max(free, tick + engine.upper(v) - engine.lower(v))
+    return free
 
 
 def hangs_on_action(bench: Workbench, t: int) -> bool:
@@ -138,7 +146,7 @@ def begin_together(bench: Workbench, t: int, other: int) -> bool:
 
 def _awaited_ends(bench: Workbench, t: int, current: int, tick: int) -> list[int]:
     """The ends of tokens of other reactors after which edges demand that `t` begins."""
-    _gather_followed(bench, t, tick)
+    _gather_followed(bench, t, tick, True)
     ends = []
     for i in range(1, bench.met.count):
         v = bench.met.items[i]
@@ -147,8 +155,11 @@ def _awaited_ends(bench: Workbench, t: int, current: int, tick: int) -> list[int
     return ends
 
 
-def _gather_followed(bench: Workbench, t: int, tick: int) -> None:
-    """Gather the start of `t`, and behind it what edges demand that it follows and may still be to come."""
+def _gather_followed(bench: Workbench, t: int, tick: int, is_far: bool) -> None:
+    """Gather the start of `t`, and behind it what edges demand that it follows and may still be to come.
+
+    If that is not to be far, nothing beyond what this reactor begins.
+    """
     engine, met = bench.engine, bench.met
     met.empty(engine.variables)
     met.add(bench.start(t))
@@ -158,7 +169,8 @@ def _gather_followed(bench: Workbench, t: int, tick: int) -> None:
         while e >= 0:
             v = engine.edge_target[e]
             if engine.edge_weight[e] <= 0 and not met.has(v) and engine.upper(v) > tick:
-                met.add(v)
+                if is_far or not _is_own(bench, v, START):
+                    met.add(v)
             e = engine.out_next[e]
         i += 1
 
@@ -187,13 +199,30 @@ def _is_held_back(bench: Workbench, t: int, current: int, tick: int) -> bool:
 
 def _begins_late(bench: Workbench, v: int, t: int) -> bool:
     """Whether `v` is the start of a token of this reactor, other than `t`, that nobody asked for."""
-    plan = bench.plan
-    if plan.variable_role[v] != ROLE_TOKEN or plan.variable_name[v] != START:
+    if not _is_own(bench, v, START):
         return False
-    other = bench.stands_for(plan.variable_owner[v])
+    other = bench.stands_for(bench.plan.variable_owner[v])
     return (
         other != bench.stands_for(t) and bench.object_of(other) in bench.late_objects and not bench.is_requested(other)
     )
+
+
+def _ends_late(bench: Workbench, v: int, t: int) -> bool:
+    """Whether `v` is the end of a token of this reactor, other than `t`, that may still last longer or less."""
+    if not _is_own(bench, v, END):
+        return False
+    engine, other = bench.engine, bench.stands_for(bench.plan.variable_owner[v])
+    length = bench.duration(other)
+    is_open = engine.lower(v) < engine.upper(v) and engine.lower(length) < engine.upper(length)
+    return bool(is_open and other != bench.stands_for(t))
+
+
+def _is_own(bench: Workbench, v: int, name: int) -> bool:
+    """Whether `v` is the start, or the end, of a token of this reactor."""
+    plan = bench.plan
+    if plan.variable_role[v] != ROLE_TOKEN or plan.variable_name[v] != name:
+        return False
+    return bench.object_of(bench.stands_for(plan.variable_owner[v])) in bench.internal_objects
 
 
 def _is_awaited(bench: Workbench, v: int, t: int, current: int, tick: int) -> bool:

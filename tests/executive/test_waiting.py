@@ -154,3 +154,25 @@ def test_a_command_is_not_given_when_the_owner_of_one_that_goes_with_it_has_give
     told = given_together(TOGETHER["relations"], busy, until=9)
     assert told[:3] == ["5 request boss valve Open", "5 request boss arm Act(n=2)", "6 recall boss valve Open"]
     assert "6 request boss valve Open" not in told
+
+
+@pytest.mark.parametrize(
+    ("length", "told"),
+    [
+        ("duration <= 9;", ["11 request boss arm Act(n=2)", "3 Do", "12 Idle", "14 Act(n=2)"]),
+        ("duration == 9;", ["0 request boss arm Act(n=2)", "3 Do", "12 Idle", "14 Act(n=2)"]),
+        ("", ["3 Do"]),
+    ],
+)
+def test_what_is_to_come_after_an_open_end_is_asked_for_when_that_has_come(length: str, told: list[str]) -> None:
+    rule = f"Task::Do {{ {length} before(Arm.Act act); act.n == 2; act.start == end + 2; }}"
+    boss = f"{PARTS} {rule} Task task = new Task(Internal); Arm arm = new Arm(External); close();"
+    arms = f"{PARTS} Arm::Act {{ duration == 6; }} Arm arm = new Arm(Internal); close();"
+    outcome = fly(
+        planner("arms", arms, "arm"),
+        planner("boss", boss, "task", "arm"),
+        until=30,
+        goals=(GoalConfiguration("task", "Do", start=(3, 5)),),
+    )
+    assert not lines(outcome, "recall", "relax", "reject")
+    assert lines(outcome, "request")[1:] + history(outcome, "task")[1:] + history(outcome, "arm")[1:2] == told

@@ -176,6 +176,11 @@ def _is_blocked(reactor: Reactor, timeline: str, place: int, number: int) -> boo
             is_before = net.follows(token.start, other.start) and net.distance(token.start, other.start) < 0
             if is_late and is_before and net.high[other.start] < net.high[token.start]:
                 return True
+        if other.timeline in reactor.part.internal and _lasts(reactor, here):
+            starts = {one.start for one in plan.tokens if one.timeline in reactor.part.internal}
+            near = net.follows(token.start, other.end, starts)
+            if near and net.distance(token.start, other.end) < 0:
+                return True
         if other.timeline == timeline or other.timeline in reactor.part.internal:
             continue
         over = plan.state[here] == "begun" and plan.current[other.timeline] != here
@@ -189,6 +194,14 @@ def _is_blocked(reactor: Reactor, timeline: str, place: int, number: int) -> boo
                         continue
             return True
     return False
+
+
+def _lasts(reactor: Reactor, number: int) -> bool:
+    """Whether an own token that is not over may last longer or less."""
+    plan, token, net = reactor.plan, reactor.plan.tokens[number], reactor.plan.net
+    if plan.state[number] != "active" and plan.current.get(token.timeline) != number:
+        return False
+    return net.low[token.end] < net.high[token.end] and net.low[token.length] < net.high[token.length]
 
 
 def _keeps_next(reactor: Reactor, number: int) -> bool:

@@ -1,5 +1,7 @@
 """Differences of whole numbers, each with its bounds: the times and arguments of one plan."""
 
+from collections.abc import Set as AbstractSet
+
 from tests.executive.second.description import FAR
 
 
@@ -89,12 +91,15 @@ class Network:
                     agenda.append(there)
         return best.get(second, FAR)
 
-    def follows(self, first: int, second: int) -> bool:
-        """Whether relations say one after another that the second is no later; what lengths add up to says nothing."""
+    def follows(self, first: int, second: int, beyond: AbstractSet[int] = frozenset()) -> bool:
+        """Whether relations say one after another that the second is no later; what lengths add up to says nothing.
+
+        Relations by way of `beyond` do not count.
+        """
         met, agenda = {first}, [first]
         while agenda:
             for there, weight in self.edges[agenda.pop()]:
-                if weight <= 0 and there not in met:
+                if weight <= 0 and there not in met and there not in beyond:
                     met.add(there)
                     agenda.append(there)
         return second in met
