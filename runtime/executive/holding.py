@@ -20,7 +20,7 @@ def is_blocked(bench: Workbench, t: int, current: int, tick: int) -> bool:
 
 
 def follows_late(bench: Workbench, t: int, tick: int) -> float:
-    """The first tick at which `t` follows nothing that this reactor begins, or ends, as late as it may, and has not yet.
+    """The first tick at which `t` follows nothing that this reactor has not yet begun, or ended, as late as it may.
 
     An owner that begins `t` before that breaks the plan. What must begin when that does, at the latest, cannot wait.
     `INFINITY` if time alone does not bring it about; an end comes nearer to its latest by no more than one tick a tick.

@@ -184,7 +184,10 @@ class Reactor:
         relaxed, moved = repaired(plan, forgets, asked)
         self.lasting = {timeline: moved[one] for timeline, one in self.lasting.items() if one in moved}
         for request in self.requests:
-            parents = [one.parent for one in plan.tokens if plan.stands_for(one.number) == request.token]
+            token = request.token
+            parents = [one.parent for one in plan.tokens if plan.stands_for(one.number) == token]
+            if token is not None and plan.state[token] == "active":  # it is who asked first that counts
+                parents = [plan.tokens[token].parent]
             request.is_kept = any(parent in moved for parent in parents)
             request.token = None if request.token is None else moved.get(request.token)
         for goal in self.goals:
