@@ -96,11 +96,13 @@ def _strange_arguments(
 def _taking(
     mission: Mission, number: int, predicate: PredicateCode, value: Value | Bounds, program: Program
 ) -> str | None:
-    """The only parameter without a value that can take one, where that is a text, which few can."""
+    """The only parameter without a value that can take one; numbers fit many: of these the only one left at all."""
     given = {name for name, _ in mission.agent.goals[number].parameters}
-    left = [one for one in predicate.parameters if one.name not in given and one.type.kind in ("enum", "object")]
-    fitting = [one.name for one in left if strange_value(one, value, program) is None]
-    return fitting[0] if len(fitting) == 1 and isinstance(value, str) else None
+    left = [one for one in predicate.parameters if one.name not in given]
+    if isinstance(value, str):
+        left = [one for one in left if one.type.kind in ("enum", "object")]
+        left = [one for one in left if strange_value(one, value, program) is None]
+    return left[0].name if len(left) == 1 and strange_value(left[0], value, program) is None else None
 
 
 def sampling_misfits(mission: Mission, sites: Mapping[str, ParameterSite]) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from collections.abc import Collection
 from dataclasses import replace
 
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
-from nddl_lang.text.nearest import nearest
+from nddl_lang.text.nearest import begun, nearest
 from nddl_lang.text.source import Span
 
 _COMPARING = re.compile(r"[<>=+*/-]")
@@ -13,9 +13,9 @@ _PART = re.compile(r"""\"[^\"]*\"|'[^']*'|[^.\"']+""")
 
 
 def meant_name(name: str, known: Collection[str]) -> str | None:
-    """The known name that was meant by another: the last part of it, as in `Nav.Hold`, or the nearest."""
+    """The known name that was meant by another: its last part, as in `Nav.Hold`, the nearest, or what it begins."""
     last = name.replace("::", ".").rpartition(".")[2]
-    return last if last != name and last in known else nearest(name, known)
+    return last if last != name and last in known else nearest(name, known) or begun(name, known)
 
 
 def word_in(span: Span, name: str) -> Span:

@@ -62,6 +62,7 @@ def find_role_misfits(
                 span = mission.text.value_span(key_path) if is_there else mission.text.key_span(key_path[:2])
                 yield UNLISTED.at(
                     span,
+                    fixes=_listing(span, timeline) if is_there else (),
                     timeline=timeline,
                     mode=mode,
                     model=reactor.model,
@@ -78,6 +79,16 @@ def _loaded(program: Program, constraints: Sequence[Constraint]) -> Workbench | 
     """The model with its script run; None where a fault stops it, which the executive tells of."""
     database = PlanDatabase(program, lambda name, token: None, tuple(constraints))
     return None if database.run_script() is not None else Workbench(database, "")
+
+
+def _listing(span: Span, timeline: str) -> tuple[Fix, ...]:
+    """The fix that adds a timeline to the list at `span`."""
+    inside = span.text.rstrip()[1:-1].rstrip()
+    if span.text[:1] != "[" or "#" in inside:
+        return ()
+    end = span.start + 1 + len(inside)
+    text = f'"{timeline}"' if not inside.strip() else f' "{timeline}"' if inside[-1] == "," else f', "{timeline}"'
+    return (Fix(f'add `"{timeline}"`', (Edit(Span(span.anchor, end, end), text),), safe=False),)
 
 
 def _move(timeline: str, mode: str) -> str:

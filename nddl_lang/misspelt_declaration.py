@@ -75,7 +75,7 @@ def name_misspelt_declaration(
         if is_unused and uses >= _FEWEST:
             told |= dict.fromkeys(complaints)
             told[complaints[0]] = _told_there(declaration, used, complaints)
-    return tuple(kept for each in found if (kept := told.get(each, each)) is not None)
+    return _without_echoes(found, told)
 
 
 def name_misspelt_part(
@@ -105,7 +105,14 @@ def name_misspelt_part(
         if is_unused and (is_type or len(declarations) == 1):
             told |= dict.fromkeys(complaints)
             told[complaints[0]] = _told_there(declarations[0], used, complaints)
-    return tuple(kept for each in found if (kept := told.get(each, each)) is not None)
+    return _without_echoes(found, told)
+
+
+def _without_echoes(found: Sequence[Diagnostic], told: dict[Diagnostic, Diagnostic | None]) -> tuple[Diagnostic, ...]:
+    """`found`, with what is `told` in place; who lacks the same is not told again, whatever else is proposed there."""
+    said = {each.message for each in told if each.code is not UNKNOWN_NAME}
+    left = (told.get(each, None if each.message in said else each) for each in found)
+    return tuple(each for each in left if each is not None)
 
 
 def _meant(complaint: Diagnostic) -> str | None:

@@ -48,6 +48,7 @@ _COMPARISONS = frozenset({"==", "!=", "<", "<=", ">", ">="})
 _ARITHMETIC = frozenset({"+", "-", "*", "/"})
 _TRUTHS = Values((0, 1))
 _ROUND = "say how to round: `ceil(...)` or `floor(...)`"
+_ROUNDING = frozenset({"ceil", "floor"})
 _PRODUCTS = frozenset({"mulEq", "multEq", "divEq", "eqProduct"})
 
 
@@ -185,7 +186,8 @@ def _of_floats(part: Part, variable: Variable, results: list[Diagnostic]) -> Ite
         each: other for one in part.all(BinaryExpr) for each, other in ((one.left, one.right), (one.right, one.left))
     }
     beside |= {each: other for left, right, _ in _equalities(part) for each, other in ((left, right), (right, left))}
-    are_floats = all(each in beside and _kind(part, beside[each]) is Kind.FLOAT for each in uses)
+    rounded = {each for call in part.all(CallExpr) if call.function.name in _ROUNDING for each in call.arguments}
+    are_floats = all(each in rounded or _kind(part, beside.get(each, each)) is Kind.FLOAT for each in uses)
     if not are_floats or len(uses) <= len(results) or variable.span is None:
         yield from results
         return

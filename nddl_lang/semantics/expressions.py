@@ -25,9 +25,9 @@ from nddl_lang.semantics.meant import (
     is_token_in,
     member_meant,
     number_meant,
+    other_parameters,
     parameter_meant,
     relation_meant,
-    time_meant,
     value_meant,
     variable_meant,
 )
@@ -155,11 +155,7 @@ def _binary_type(context: Context, binary: BinaryExpr, left: Type | None, right:
                 fixes = fixes or (number_meant(side, FLOAT) if isinstance(side, StringLiteral) else ())
                 help_ = help_ or (f"{fixes[0].title}, without quotes" if fixes else None)
                 text, found = side.span.text, phrase(type_)
-                context.complain(
-                    NO_ORDER.at(
-                        side.span, op=op, text=text, found=found, help=help_ or time_meant(context, side), fixes=fixes
-                    )
-                )
+                context.complain(NO_ORDER.at(side.span, op=op, text=text, found=found, help=help_, fixes=fixes))
                 break
         return BOOL
     if op in _LOGIC:
@@ -189,7 +185,7 @@ def _check_equality(context: Context, binary: BinaryExpr, left: Type | None, rig
             (ALWAYS_DIFFERENT if differing else INCOMPARABLE).at(
                 binary.span,
                 help=helps[0] if helps else None,
-                fixes=tuple(fixes),
+                fixes=tuple(fixes) or other_parameters(context, binary, left, right),
                 left=binary.left.span.text,
                 one=phrase(left),
                 right=binary.right.span.text,
@@ -221,7 +217,7 @@ def _arithmetic_type(context: Context, binary: BinaryExpr, left: Type | None, ri
                 op=binary.op,
                 text=side.span.text,
                 found=phrase(type_),
-                help=help_ or time_meant(context, side),
+                help=help_,
                 fixes=fixes,
             )
             context.complain(complaint)

@@ -1,12 +1,13 @@
 """What was meant by an expression that does not fit: an expression in; help, and fixes to be looked at, out."""
 
 import re
+from collections.abc import Iterator
 
 from nddl_lang.semantics.natives import builtin_type
 from nddl_lang.semantics.owned_names import only_one
-from nddl_lang.semantics.schema import Kind, TokenReference, Type
+from nddl_lang.semantics.schema import Kind, MemberReference, TokenReference, TokenVariableReference, Type, Variable
 from nddl_lang.semantics.scope import Context
-from nddl_lang.semantics.types import NUMBERS, comparable
+from nddl_lang.semantics.types import NUMBERS, comparable, reference_type
 from nddl_lang.syntax.nodes import BinaryExpr, CallExpr, Expr, PathExpr, StringLiteral, UnaryExpr
 from nddl_lang.text.diagnostic import Edit, Fix
 from nddl_lang.text.nearest import nearest
@@ -53,13 +54,50 @@ def parameter_meant(context: Context, token: Expr, other: Type) -> tuple[Fix, ..
     return (Fix(f"write `{text}`", (Edit(token.span, text),), safe=False),)
 
 
+def other_parameters(context: Context, binary: BinaryExpr, left: Type, right: Type) -> tuple[Fix, ...]:
+    """Where one parameter or member stands for another: the one that fits, by its name too or as the only one."""
+    named: list[tuple[Expr, str]] = []
+    fitting: list[tuple[Expr, str]] = []
+    for side, beside, wanted in ((binary.left, binary.right, right), (binary.right, binary.left, left)):
+        if not isinstance(side, PathExpr):
+            continue
+        owner = ".".join(part.name for part in side.parts[:-1])
+        last = beside.parts[-1].name if isinstance(beside, PathExpr) else ""
+        for one in _siblings(context, side):
+            text = f"{owner}.{one.name}" if owner else one.name
+            if one.type is not None and _is_alike(one.type, wanted) and text != beside.span.text:
+                (named if one.name == last else fitting).append((side, text))
+    found = named or fitting
+    return tuple(
+        Fix(f"write `{text}`", (Edit(side.span, text),), safe=False) for side, text in found if len(found) == 1
+    )
+
+
+def _siblings(context: Context, side: PathExpr) -> Iterator[Variable]:
+    """What the token or the object has, a variable of which a path names."""
+    reference = context.tables.references.get(side)
+    if isinstance(reference, TokenVariableReference):
+        yield from reference.label.predicate.parameters
+    elif isinstance(reference, MemberReference) and len(side.parts) > 1:
+        owner = context.tables.references.get(side.parts[-2])
+        type_ = reference_type(owner, None) if owner is not None else None
+        for each in context.symbols.ancestry(type_.base) if type_ is not None else ():
+            yield from each.members.values()
+
+
+def _is_alike(one: Type, other: Type) -> bool:
+    return one.kind is other.kind and (one.base == other.base or one.kind in NUMBERS)
+
+
 def member_meant(
     context: Context, side: Expr, type_: Type, other: Type | None = None
 ) -> tuple[str | None, tuple[Fix, ...]]:
-    """Where an object stands for a number, or for what may equal `other`: its members that are so.
+    """Where an object or a token stands for a number, or an object for what may equal `other`: what it has that is so.
 
     Members of the very type come before those of the same kind, and these before what can be compared.
     """
+    if other is None and isinstance(context.tables.references.get(side), TokenReference):
+        return _times_of(side)
     if type_.kind is not Kind.OBJECT or not isinstance(side, PathExpr):
         return None, ()
     is_subclass = context.symbols.is_subclass
@@ -122,12 +160,11 @@ def variable_meant(context: Context, call: CallExpr) -> tuple[str | None, tuple[
     return f"write `{text}`", (Fix(f"write `{text}`", (Edit(call.span, text),), safe=False),)
 
 
-def time_meant(context: Context, operand: Expr) -> str | None:
-    """What to write for a token where a number is wanted; None where the operand is something else."""
-    if not isinstance(context.tables.references.get(operand), TokenReference):
-        return None
-    text = operand.span.text
-    return f"`{text}` is a token: its times are `{text}.start`, `{text}.end` and `{text}.duration`"
+def _times_of(side: Expr) -> tuple[str, tuple[Fix, ...]]:
+    """The times that may be meant by a token where a number is wanted."""
+    times = [f"{side.span.text}.{name}" for name in ("start", "end", "duration")]
+    fixes = tuple(Fix(f"write `{each}`", (Edit(side.span, each),), safe=False, is_choice=True) for each in times)
+    return f"`{side.span.text}` is a token: its times are `{times[0]}`, `{times[1]}` and `{times[2]}`", fixes
 
 
 def is_token_in(context: Context, operand: Expr) -> bool:

@@ -151,6 +151,7 @@ Work work = new Work();
         ("track.glass == exposure;", ["write `glass`"]),
         ("exposure == track.glass;", ["write `glass`"]),
         ("track.glass == 3;", []),
+        ("exposure <= track + 3;", ["write `track.start`", "write `track.end`", "write `track.duration`"]),
     ],
 )
 def test_no_repair_leads_to_a_warning_in_its_line(wrong: str, wanted: Sequence[str]) -> None:

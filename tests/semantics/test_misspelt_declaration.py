@@ -83,3 +83,14 @@ def test_what_another_file_declares_is_not_blamed(tmp_path: Path) -> None:
 def test_a_built_in_name_that_stands_once_is_no_declaration() -> None:
     text = "class A extends Timelien { }\nclass B extends Timelien { }\nclass C extends Timeline { }\n"
     assert {each.code.id for each in analyse_text("arm.nddl", text).diagnostics} == {"NDDL213"}
+
+
+def test_who_is_helped_otherwise_is_not_told_again() -> None:
+    text = (
+        "class Arm extends Timeline {\n    predicate Grab { int teets; }\n    predicate Push { int teats; }\n"
+        "    predicate Lift { }\n    predicate Rest { }\n}\n"
+        "Arm::Lift { meets(object.Grab g); met_by(object.Push p); g.teats == 3; p.teats == 4; }\n"
+        "Arm::Rest { meets(object.Grab g); g.teats == 5; }\nArm::Grab { teats <= 7; }\n"
+    )
+    (one,) = analyse_text("model.nddl", text).diagnostics
+    assert one.code.id == "NDDL237" and one.span.line == 2
