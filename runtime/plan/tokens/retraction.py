@@ -119,11 +119,13 @@ def forget_orders(plan: Plan) -> bool:
     """Take back the precedences between uses of resources that a search has posted, and no rule (level 0)."""
     engine, uses = plan.engine, plan.resources
     edges: list[int] = []
+    seen: set[int] = set()  # of variables, which several uses may share; an edge goes out of one
     for u in range(uses.count):
         for v in (uses.start[u], uses.end[u]) if uses.sign[u] else ():
-            e = engine.out_head[v] if v >= 0 else NONE
+            e = engine.out_head[v] if v >= 0 and v not in seen else NONE
+            seen.add(v)
             while e >= 0:
-                if engine.edge_owner[e] == NONE and engine.edge_span[e] == NONE and e not in edges:
+                if engine.edge_owner[e] == NONE and engine.edge_span[e] == NONE:
                     edges.append(e)
                 e = engine.out_next[e]
     return not edges or engine.retract([], edges)
