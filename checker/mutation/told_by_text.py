@@ -1,7 +1,8 @@
 """Sites in, the same out with edits that the text itself asks for, whatever a mission did.
 
 Objects of a class that are counted have a number each; what is drawn is compared with numbers that it may be above and
-below; and the wait of a token that another one comes before counts from the end of that one.
+below; the wait of a token that another one comes before counts from the end of that one; and of a share that one line
+of a rule takes away another one hardly takes the part itself.
 """
 
 import re
@@ -22,13 +23,15 @@ _ORDERED = re.compile(r"([A-Za-z_]\w*)\s*[<>]=?\s*([\w.]+)")
 _BEFORE = re.compile(r"\s*(\w+)\s+(before|meets|after|met_by)\s+(\w+)\s*;")
 _SINCE_OWN = re.compile(r"\s*(\w+)\.start\s*<=?\s*(start)\b[^;]*;")
 
+_REST = re.compile(r"\(\s*1(?:\.0*)?\s*-\s*([A-Za-z_]\w*)\s*\)")
+
 _Scope = tuple[str, tuple[int, int]]
 
 
 def with_told(sites: Sequence[EditSite]) -> list[EditSite]:
     """All sites; those that something in the text speaks against have the edits that it asks for."""
     more: dict[EditSite, list[SmallEdit]] = defaultdict(list)
-    for site, edit in (*_counted(sites), *_decided(sites), *_waiting(sites)):
+    for site, edit in (*_counted(sites), *_decided(sites), *_waiting(sites), *_left(sites)):
         more[site].append(edit)
     return [_with(site, more[site]) if site in more else site for site in sites]
 
@@ -134,3 +137,17 @@ def _waiting(sites: Sequence[EditSite]) -> Iterator[tuple[EditSite, SmallEdit]]:
             begin, end = (site.begin + at for at in found.span(2))
             line = site.first + site.text.count("\n", 0, found.start(2))
             yield site, SmallEdit(EditKind.TOKEN, site.file, begin, end, "start", f"{first}.end", line)
+
+
+def _left(sites: Sequence[EditSite]) -> Iterator[tuple[EditSite, SmallEdit]]:
+    """What a share leaves, where a line multiplies with the share itself: `pace * traffic` beside `(1.0 - traffic)`."""
+    taken: dict[_Scope, set[str]] = defaultdict(set)
+    for site in sites:
+        taken[site.file, site.scope] |= set(_REST.findall(site.text)) if site.rule else set()
+    for site in sites:
+        for name in sorted(taken.get((site.file, site.scope), set()) - set(_REST.findall(site.text))):
+            for found in re.finditer(rf"(?<=[*/])\s*\b({name})\b(?!\s*[*/.(])|\b({name})\b(?=\s*\*)", site.text):
+                at = found.start(1 if found.group(1) else 2)
+                begin, line = site.begin + at, site.first + site.text.count("\n", 0, at)
+                new = f"(1.0 - {name})"
+                yield site, SmallEdit(EditKind.FORMULA, site.file, begin, begin + len(name), name, new, line)

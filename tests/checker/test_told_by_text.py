@@ -61,6 +61,11 @@ Crop::Tend {
 Crop::Sow {
   float rate;
   rate == TROLLEY_SPEED / speed;
+  float dust;
+  float pace;
+  float slow;
+  pace == rate * (1.0 - dust);
+  slow == rate * dust;
 }
 Crop::Refill { any(yard.consume more); more.quantity == bales; }
 Crop::Sell { any(yard.consume gone); gone.quantity == bales; }
@@ -97,6 +102,7 @@ def found(sites: list[EditSite], text: str, old: str, new: str) -> tuple[SmallEd
         ("day > 4.0", "4.0", "0.4"),  # a day is never above 1
         ("float WARM = 4.0;", "4.0", "0.4"),
         ("airing.start <= start + WAIT;", "start", "give.end"),  # `give` comes before it
+        ("slow == rate * dust;", "dust", "(1.0 - dust)"),  # of another line what the dust leaves
     ],
 )
 def test_what_the_text_speaks_against_is_tried_before_any_flight(
@@ -109,7 +115,13 @@ def test_what_the_text_speaks_against_is_tried_before_any_flight(
 
 def test_nothing_is_told_of_what_the_text_agrees_with(sites: list[EditSite]) -> None:
     wanted = [site.text for site in sites if site.wanted]
-    assert wanted == ["float WARM = 4.0;", "airing.start <= start + WAIT;", "day > 4.0", "Lot third = new Lot(2, 10);"]
+    assert wanted == [
+        "float WARM = 4.0;",
+        "airing.start <= start + WAIT;",
+        "day > 4.0",
+        "slow == rate * dust;",
+        "Lot third = new Lot(2, 10);",
+    ]
 
 
 def test_a_rate_belongs_on_the_other_side_before_what_else_a_product_may_be(
