@@ -71,6 +71,12 @@ def declared(complaint: Diagnostic, statement: Span, type_name: str) -> Diagnost
     return replace(complaint, help=f"declare it: `{written}`", fixes=(fix,))
 
 
+def asked_for(complaint: Diagnostic, statement: Span, written: str) -> Diagnostic:
+    """The complaint of an unknown token with what asks for it, before a statement, as help."""
+    fix = Fix(f"ask for `{written}`", (_before(statement, written),), safe=False)
+    return replace(complaint, help=f"ask for it: `{written}`", fixes=(fix,))
+
+
 def _may_be_meant(context: Context, scope: Scope, complaint: Diagnostic, value: Type) -> bool:
     """Whether what the only fix of a complaint writes may be equal to the value; what is not known by name may."""
     edits = [edit for fix in complaint.fixes for edit in fix.edits]
