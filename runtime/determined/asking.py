@@ -6,7 +6,14 @@ from dataclasses import dataclass
 from runtime.determined.machine import Machine
 from runtime.determined.tags import (
     FAR,
+    LEAST,
+    MOST,
     NONE,
+    OWN_LEAST,
+    OWN_MOST,
+    PREDICATE,
+    SLOT,
+    START,
     WISH,
     WISH_END_FROM,
     WISH_END_UNTIL,
@@ -16,6 +23,7 @@ from runtime.determined.tags import (
     WISH_PREDICATE,
     WISH_UNTIL,
 )
+from runtime.executive.messages import Request
 
 Bounds = tuple[int, int]
 
@@ -57,3 +65,15 @@ def ask_instead(machine: Machine, wanted: Sequence[Ask]) -> None:
         state[line] = NONE
     for each in wanted:
         ask(machine, each)
+
+
+def binds(machine: Machine, line: int, started: int, request: Request) -> bool:
+    """Whether the token that began at `started` would end otherwise if it had not been asked for so (T-REX 1.9)."""
+    state, n = machine.present.state, machine.lines
+    if state[PREDICATE * n + line] < 0 or state[START * n + line] != started:
+        return False
+    slot, (shortest, longest), (earliest, latest) = state[SLOT * n + line], request.duration, request.end
+    most, least = min(started + longest, latest), max(started + shortest, earliest)
+    if most == state[MOST * n + slot] and most < state[OWN_MOST * n + line]:
+        return True
+    return bool(least == state[LEAST * n + slot] and least > max(state[OWN_LEAST * n + line], machine.present.now + 1))

@@ -146,7 +146,7 @@ class Machine:
             present.state[DUE * n + j] = NONE
         present.state[WISH_FROM * n + i] = tick
         self.is_trial = True
-        can = self.start_block(i, tick) and present.has_length(i) and fits_within(present)
+        can = self.start_block(i, tick) and fits_within(present, i)
         self.is_trial = False
         return can
 
@@ -181,11 +181,12 @@ class Machine:
                 self.registers[into + j] = self.registers[first + j]
             mask >>= 1
             j += 1
-        if is_wish:
-            present.begin_wish(i)
         predicate = tables.block_predicate[block]
         self.root_row = self.log.note(tick, i, predicate, block | WISHED if is_wish else block)
-        return self.carry_out(tables.block_start[block]) and self.write_down(block)
+        is_done = self.carry_out(tables.block_start[block])
+        if is_done and is_wish:
+            present.begin_wish(i)
+        return is_done and self.write_down(block)
 
     def write_down(self, block: int) -> bool:
         """Log the tokens that a block has begun, and what it shows; false if a parameter is too large, or missing."""

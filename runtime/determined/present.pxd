@@ -3,13 +3,15 @@
 cimport cython
 
 cdef long long NONE, FAR, PAIRS, PREDICATE, START, SLOT, LEAST, MOST, FOLLOWER, OWNER, ENDING, DUE, WISH, WISH_FROM
-cdef long long WISH_UNTIL, WISH_END_FROM, WISH_END_UNTIL, WISH_LEAST, WISH_MOST, BEFORE, WISH_PREDICATE, SECTIONS
+cdef long long WISH_UNTIL, WISH_END_FROM, WISH_END_UNTIL, WISH_LEAST, WISH_MOST, BEFORE, WISH_PREDICATE
+cdef long long OWN_LEAST, OWN_MOST, SECTIONS
 
 
 cdef class Present:
     cdef public long long lines, pairs, now, reach, changed, alone, steady, rest
     cdef public long long[::1] state, kept, flags, is_used
 
+    @cython.locals(least="long long", most="long long", n="long long", slot="long long")
     cpdef int begin_wish(self, long long i) except -1
 
     cpdef long long coming(self, long long tick) except? -1
@@ -35,7 +37,6 @@ cdef class Present:
     cpdef bint stays_steady(self, long long tick) except -1
 
     cpdef bint has_room(self, long long i, long long tick) except -1
-    cpdef bint has_length(self, long long i) except -1
 
     @cython.locals(moved="bint")
     cpdef bint order_ends(self, long long a, long long b) except -1

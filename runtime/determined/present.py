@@ -19,6 +19,8 @@ from runtime.determined.tags import (
     LEAST,
     MOST,
     NONE,
+    OWN_LEAST,
+    OWN_MOST,
     OWNER,
     PAIRS,
     PREDICATE,
@@ -62,12 +64,16 @@ class Present:
             self.state[BEFORE * lines + i] = NONE
 
     def begin_wish(self, i: int) -> int:
-        """Bound the end of a token that somebody asked for, and that starts now."""
+        """Bound the end of a token that somebody asked for, that starts now, and whose own rules have bound it."""
         n = self.lines
         now = self.now
-        least = max(now + self.state[WISH_LEAST * n + i], self.state[WISH_END_FROM * n + i], now + 1)
-        self.state[LEAST * n + i] = least
-        self.state[MOST * n + i] = min(now + self.state[WISH_MOST * n + i], self.state[WISH_END_UNTIL * n + i])
+        slot = self.state[SLOT * n + i]
+        self.state[OWN_LEAST * n + i] = self.state[LEAST * n + slot]
+        self.state[OWN_MOST * n + i] = self.state[MOST * n + slot]
+        least = max(now + self.state[WISH_LEAST * n + i], self.state[WISH_END_FROM * n + i])
+        most = min(now + self.state[WISH_MOST * n + i], self.state[WISH_END_UNTIL * n + i])
+        self.state[LEAST * n + slot] = max(self.state[LEAST * n + slot], least)
+        self.state[MOST * n + slot] = min(self.state[MOST * n + slot], most)
         return 0
 
     def coming(self, tick: int) -> int:
@@ -307,12 +313,6 @@ class Present:
             return True
         least = self.state[LEAST * n + self.state[SLOT * n + i]] if self.state[PREDICATE * n + i] >= 0 else 0
         return bool(max(least, tick + 1) <= self.state[WISH_UNTIL * n + i])
-
-    def has_length(self, i: int) -> bool:
-        """Whether what holds on a timeline may end at some time after its start."""
-        n = self.lines
-        slot = self.state[SLOT * n + i]
-        return bool(self.state[LEAST * n + slot] <= self.state[MOST * n + slot])
 
     def order_ends(self, a: int, b: int) -> bool:
         """Let the end of `a` be no later than that of `b`; whether a bound has moved."""

@@ -7,7 +7,7 @@ that came from outside so far, and goes on from there. The general engine is the
 from collections.abc import Callable
 
 from runtime.determined.arguments import given_block
-from runtime.determined.asking import Ask, ask, ask_instead
+from runtime.determined.asking import Ask, ask, ask_instead, binds
 from runtime.determined.expand import expand, record_of
 from runtime.determined.inputs import Inputs, ShadowReactor, take_over
 from runtime.determined.loading import RegisterProgram
@@ -306,6 +306,9 @@ class DeterminedReactor(TeleoReactor):
         for wish in self.publisher.wishes:
             if wish.request.number == number and wish.ended < 0:
                 wish.is_recalled = True
+                if wish.started >= 0:
+                    self._return_to(self.tick)
+                    self.is_beyond = self.is_beyond or binds(self.machine, wish.line, wish.started, wish.request)
                 if wish.request.is_mandatory:
                     request, why = wish.request, Reason(ReasonKind.RECALLED)
                     self.refused_goals.append(OpenGoal(request.timeline, request.predicate, request.arguments, why))

@@ -13,7 +13,8 @@ WISH, WISH_FROM, WISH_UNTIL = 9, 10, 11  # the block of what somebody asked for,
 WISH_END_FROM, WISH_END_UNTIL, WISH_LEAST, WISH_MOST = 12, 13, 14, 15
 BEFORE = 16  # the predicate of the token before
 WISH_PREDICATE = 17  # of what somebody asked for
-SECTIONS = 18
+OWN_LEAST, OWN_MOST = 18, 19  # the end of a token that somebody asked for, as its own rules bound it
+SECTIONS = 20
 
 # Columns of the log after the tick: timeline, predicate, block (started by another one: -1 - row of that), where its
 # values begin; once it has been told, the index of its event and that of the cause; where what its block shows begins.

@@ -23,9 +23,12 @@ def holds(present: Present, tables: CodeTables, i: int, predicate: int, is_trial
     return bool(follower >= 0 and tables.block_predicate[follower] == predicate)
 
 
-def fits_within(present: Present) -> bool:
-    """Whether, of two ends that are ordered, none asks for more than what goes on can last."""
+def fits_within(present: Present, i: int) -> bool:
+    """Whether the token of a timeline may end, and of two ordered ends none asks for more than what goes on can last."""
     n = present.lines
+    slot = present.state[SLOT * n + i]
+    if present.state[LEAST * n + slot] > present.state[MOST * n + slot]:
+        return False
     for k in range(present.state[present.pairs]):
         at = present.pairs + 1 + 4 * k
         most = present.state[MOST * n + present.state[SLOT * n + present.state[at + 1]]]

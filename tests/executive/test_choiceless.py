@@ -5,7 +5,7 @@ import pytest
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
 from runtime.executive.outcome import EventKind
 from tests.executive.determined_models import Case, told
-from tests.executive.flying import in_all_ways, simulator
+from tests.executive.flying import history, in_all_ways, simulator
 from tests.executive.generated.choiceless import fly_choiceless
 
 MODEL = """
@@ -110,7 +110,26 @@ def test_what_competes_is_ordered_by_the_planner(rules: str, goals: tuple[GoalCo
     in_all_ways(simulator("sim", ARMS.replace("RULES", rules), "arm tap fan"), 40, goals, (), 1)
 
 
-@pytest.mark.parametrize("seed", [*range(40), 5218, 6278, 6479, 7034])
+@pytest.mark.parametrize(
+    ("rule", "end", "duration", "over"),
+    [
+        ("duration <= 10;", (0, 14), None, 20),
+        ("duration <= 10;", None, (1, 4), 20),
+        ("duration >= 3; duration <= 30;", (35, 38), (26, 28), 40),
+        ("duration == 4;", (0, 14), (4, 4), 14),
+        ("duration == 4;", None, None, 14),
+    ],
+)
+def test_who_has_taken_back_what_runs_binds_it_no_more(
+    rule: str, end: tuple[int, int] | None, duration: tuple[int, int] | None, over: int
+) -> None:
+    text = ARMS.replace("RULES", f"Arm::Act {{ {rule} }}")
+    goal = GoalConfiguration("arm", "Act", 0, False, (10, 30), end, duration, (("n", 1),), 12)
+    outcome = in_all_ways(simulator("sim", text, "arm tap fan"), 60, (goal,), (), 1)
+    assert [line.partition(" ")[0] for line in history(outcome, "arm")][1:] == ["10", str(over)]
+
+
+@pytest.mark.parametrize("seed", [*range(40), 5218, 6278, 6479, 7034, 20066])
 def test_a_random_simulator_without_a_choice_flies_alike_in_all_ways(seed: int) -> None:
     fly_choiceless(seed)
 

@@ -7,6 +7,7 @@ Prints each seed whose four flights differ, or with which the judge disagrees, a
 
 import random
 import sys
+from dataclasses import replace
 
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
 from runtime.executive.outcome import Outcome
@@ -15,6 +16,7 @@ from tests.executive.determined_models import Case
 from tests.executive.flying import in_all_ways, simulator
 
 _UNTIL = 30
+_BOUNDED = 20_000  # the first seed whose goals say when to end, and are taken back
 _TYPES = ("int k;", "Some k;", "Few k;", "int k = LIMIT;", "int k;")
 _VALUES = ("n", "n + 1", "n - 1", "1", "2", "3", "0", "n * 2", "7 - n")
 _KINDS = ("lasts", "told", "least", "most", "end", "next", "far", "together", "within", "before", "draw", "guard")
@@ -82,12 +84,24 @@ def _goal(chance: random.Random, lines: int) -> GoalConfiguration:
     return GoalConfiguration(line, predicate, at, chance.random() < 0.3, start, None, None, (value,))
 
 
+def _told_when_to_end(chance: random.Random, goal: GoalConfiguration) -> GoalConfiguration:
+    """The same with bounds of its end or duration, and often taken back."""
+    assert goal.start is not None
+    first = goal.start[0]
+    end = (first + chance.choice((1, 2, 4)), first + chance.choice((4, 6, 9, 20))) if chance.random() < 0.5 else None
+    duration = (chance.choice((1.0, 2.0)), chance.choice((2.0, 3.0, 5.0, 8.0))) if chance.random() < 0.4 else None
+    recall = int(first) + chance.choice((0, 1, 1, 2, 3, 5)) if chance.random() < 0.7 else None
+    return replace(goal, end=end, duration=duration, recall=recall)
+
+
 def fly_choiceless(seed: int) -> Outcome | None:
     """Fly the simulator of `seed` in all ways, which may raise; None where it leaves a choice."""
     chance = random.Random(seed)
     lines = chance.choice((1, 2, 2, 3))
     flyer = simulator("sim", _text(chance, lines), " ".join(f"t{each}" for each in range(lines)))
     goals = tuple(_goal(chance, lines) for _ in range(chance.choice((1, 1, 2, 3, 4))))
+    if seed >= _BOUNDED:
+        goals = tuple(_told_when_to_end(chance, goal) for goal in goals)
     update = chance.choice((1, 5))
     lag = ParameterConfiguration("LAG", 1, 4, distribution="discrete", values=(1, 2, 4), mode="intra", update=update)
     if not Case((flyer,), goals, (lag,), _UNTIL).is_compiled():
