@@ -24,7 +24,7 @@ def holds(present: Present, tables: CodeTables, i: int, predicate: int, is_trial
 
 
 def fits_within(present: Present, i: int) -> bool:
-    """Whether the token of a timeline may end, and of two ordered ends none asks for more than what goes on can last."""
+    """Whether the token of a timeline may end, and no end that another one bounds asks for more than that has."""
     n = present.lines
     slot = present.state[SLOT * n + i]
     if present.state[LEAST * n + slot] > present.state[MOST * n + slot]:
