@@ -1,7 +1,7 @@
 """Buckets of failures in, faults out: those that the same change mends are one fault, with the causes tried for it."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Protocol, TypeVar
 
@@ -9,13 +9,14 @@ from checker.batch.interruption import uninterrupted
 from checker.batch.result import MissionResult
 from checker.buckets import Bucket, joined
 from checker.conditions.condition import Condition
-from checker.counterfactual.examples import examples_of
+from checker.counterfactual.examples import examples_of, violated_by_all
 from checker.counterfactual.missions import Missions
 from checker.counterfactual.ranking import CANCELLED, NO_CAUSES, Causes, Claim, RankedLine
 from checker.oracle import Verdict
 from runtime.executive.outcome import SourcePlace
 
 _Found = TypeVar("_Found")
+_Mends = Callable[[RankedLine, MissionResult], bool]
 
 MOST_SOUGHT = 8  # buckets whose causes and conditions are sought by flights
 _MOST_TOLD = 3  # missions of a bucket on which the cause of a later one is tried
@@ -28,8 +29,11 @@ class Seeker(Protocol):
     def causes(self, missions: Missions) -> Causes:
         """The causes of one fault."""
 
-    def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
-        """Whether the change of a cause makes another failed mission pass, with all goals."""
+    def mends(self, cause: RankedLine, failed: MissionResult, beside: frozenset[str]) -> bool:
+        """Whether the change of a cause makes another failed mission pass, with all goals.
+
+        Properties that are violated `beside` what every failure is about do not count.
+        """
 
 
 class Interruptible(Protocol):
@@ -66,15 +70,16 @@ def faults_of(
     Where a signal ends the search, buckets that it did not come to are faults of their own.
     """
     by_number = {result.number: result for result in results}
+    mends = partial(_mends, seeker, violated_by_all(results))
     found: list[tuple[Bucket, Causes]] = []
     for position, bucket in enumerate(buckets):
         causes = NO_CAUSES
-        same = let(partial(_mended, found, by_number[bucket.example], seeker))
+        same = let(partial(_mended, found, by_number[bucket.example], mends))
         if same is None and position < MOST_SOUGHT:
             causes = let(partial(seeker.causes, missions_of(bucket, results))) or CANCELLED
             same = _at_one_place(found, causes)
         if same is None:
-            earlier = let(partial(_also_mended, found, causes, by_number, seeker)) or []
+            earlier = let(partial(_also_mended, found, causes, by_number, mends)) or []
             joining = [bucket, *(one for one, _ in earlier)]
             found = [one for one in found if one not in earlier]
             found.append((joined(joining) if earlier else bucket, causes))
@@ -87,18 +92,23 @@ def missions_of(bucket: Bucket, results: Sequence[MissionResult], first: int | N
     """The missions of a bucket on which changes are tried, mission `first` before others."""
     members = [result for result in results if result.number in bucket.missions]
     members.sort(key=lambda result: (result.number != first, result.number))
-    return examples_of(members, [result for result in results if result.verdict is Verdict.PASS])
+    found = examples_of(members, [result for result in results if result.verdict is Verdict.PASS])
+    return replace(found, beside=violated_by_all(results))
 
 
-def _mended(found: Sequence[tuple[Bucket, Causes]], failed: MissionResult, seeker: Seeker) -> int | None:
+def _mends(seeker: Seeker, beside: frozenset[str], cause: RankedLine, failed: MissionResult) -> bool:
+    return seeker.mends(cause, failed, beside)
+
+
+def _mended(found: Sequence[tuple[Bucket, Causes]], failed: MissionResult, mends: _Mends) -> int | None:
     for number, (_, causes) in enumerate(found):
-        if causes.first is not None and seeker.mends(causes.first, failed):
+        if causes.first is not None and mends(causes.first, failed):
             return number
     return None
 
 
 def _also_mended(
-    found: Sequence[tuple[Bucket, Causes]], causes: Causes, results: Mapping[int, MissionResult], seeker: Seeker
+    found: Sequence[tuple[Bucket, Causes]], causes: Causes, results: Mapping[int, MissionResult], mends: _Mends
 ) -> list[tuple[Bucket, Causes]]:
     """The buckets before that the first cause of a later one mends.
 
@@ -112,7 +122,7 @@ def _also_mended(
         is_helpless = known.first is None or known.first.change is None
         others = [number for number in bucket.missions if number != bucket.example][: _MOST_TOLD - 1]
         tried = [bucket.example] if is_helpless else [bucket.example, *others]
-        if (is_helpless or first.claim in _WHOLE) and all(seeker.mends(first, results[one]) for one in tried):
+        if (is_helpless or first.claim in _WHOLE) and all(mends(first, results[one]) for one in tried):
             mended.append((bucket, known))
     return mended
 

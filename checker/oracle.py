@@ -4,7 +4,7 @@ The founding paper's oracle is premature end (section 4, "any premature mission 
 stay open are class F10 of the failure taxonomy (reference of T-REX, 1.10 and 1.11).
 """
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
@@ -88,6 +88,12 @@ def judge(outcome: Outcome) -> Judgement:
     if outcome.breaches:
         return Judgement(Verdict.FAIL, _BROKEN, outcome.breaches[0])
     return Judgement(Verdict.PASS)
+
+
+def judged_beside(judgement: Judgement, beside: Container[str]) -> Judgement:
+    """The judgement of a mission that may violate some properties: it passes where it does no worse."""
+    broken = [one for one in (judgement.broken, *judgement.also) if one is not None]
+    return Judgement(Verdict.PASS) if broken and all(one.name in beside for one in broken) else judgement
 
 
 def given_up(outcome: Outcome) -> Abort | None:

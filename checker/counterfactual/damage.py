@@ -14,6 +14,7 @@ HEAVY = 10.0  # damage of a mission that passes without a goal
 ALIKE = 1.0  # of each that the failed one had given up in the same way
 _COLLAPSED = 1.5  # of each of two predicates that hardly hold
 _LONG = 10  # ticks that are no moment
+_VIOLATED = 1.5  # of a property that was violated in any case
 _STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
 
 
@@ -69,6 +70,13 @@ def voided_of(result: MissionResult, failed: MissionResult) -> float:
     if broken is None or result.outcome is None:
         return 0.0
     return HEAVY * any(one.is_void for one in result.outcome.properties if one.name == broken.name)
+
+
+def violated_of(result: MissionResult) -> float:
+    """What it costs that properties are violated which a failure is not about: one change may mend both."""
+    if result.outcome is None:
+        return 0.0
+    return _VIOLATED * any(not one.is_kept for one in result.outcome.properties)
 
 
 def is_farther(result: MissionResult, failed: MissionResult) -> bool:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from checker.batch.result import MissionResult
 from checker.counterfactual.missions import Missions
 from checker.coverage import is_event, is_trouble
+from checker.oracle import Verdict
 
 _MOST_FAILED = 3
 _MOST_PASSED = 2
@@ -35,6 +36,18 @@ def examples_of(failed: Sequence[MissionResult], passed: Sequence[MissionResult]
         left.remove(far)
     share = len(passed) / (len(passed) + len(failed))
     return Missions(kept, chosen, _only_exercised_by(failed, passed), _usual(passed), share)
+
+
+def violated_by_all(results: Sequence[MissionResult]) -> frozenset[str]:
+    """The properties that every mission violated which got to its end; none where some passed."""
+    found: list[frozenset[str]] = []
+    for one in results:
+        if one.verdict is Verdict.PASS:
+            return frozenset()
+        outcome = one.outcome
+        if outcome is not None and outcome.abort is None and not outcome.ended_early and one.verdict is Verdict.FAIL:
+            found.append(frozenset(each.name for each in outcome.properties if not each.is_kept))
+    return frozenset.intersection(*found) if found else frozenset()
 
 
 def _only_exercised_by(failed: Sequence[MissionResult], passed: Sequence[MissionResult]) -> frozenset[int]:

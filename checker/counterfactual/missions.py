@@ -23,6 +23,7 @@ class Missions:
     passing: float = 0.0
     is_cut: bool = False  # before they end, as nothing is known of what came then
     goals: tuple[GoalConfiguration, ...] = ()  # those of the mission file
+    beside: frozenset[str] = frozenset()  # properties that every mission violates that got to its end
 
     def damage_of(self, result: MissionResult, failed: MissionResult) -> float:
         """What a mission has lost that passes with a change, and failed without."""

@@ -68,7 +68,8 @@ class RankedLine:
 class Causes:
     """Why missions of one fault fail, the likeliest cause first; `tried` lines were tried in so many flights.
 
-    Properties that were left `aside` are violated as well, and may be so with each change.
+    Properties that were left `aside` are violated as well, and may be so with each change; so may those that all
+    missions violate `beside` this failure.
     """
 
     ranked: tuple[RankedLine, ...] = ()
@@ -78,6 +79,7 @@ class Causes:
     flown: int = 0  # the number of the failed mission
     remarks: tuple[Remark, ...] = ()  # what lint says of the models
     aside: tuple[str, ...] = ()
+    beside: tuple[str, ...] = ()
     beyond: int = 0  # of the flights, those beyond the usual, until a change helped in all missions
 
     @property

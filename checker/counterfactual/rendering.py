@@ -104,6 +104,8 @@ def effort_text(causes: Causes, mission: str = "the same mission") -> str:
     text = f"{lines} tried in {causes.flights} flight{'' if causes.flights == 1 else 's'} of {mission}"
     if causes.aside:
         text += f", as to this property and not to {', '.join(f'`{name}`' for name in causes.aside)}"
+    if causes.beside:
+        text += f", whether {' and '.join(f'`{name}`' for name in causes.beside)} {_kept(causes.beside)} kept or not"
     match causes.ended:
         case TrialsEnd.COMPLETE:
             return text
@@ -163,6 +165,10 @@ def _passes(cause: RankedLine) -> str:
 def _of_all(cause: RankedLine) -> str:
     """How many failed missions there are, where a change was not tried on all of them."""
     return f" (of {cause.among})" if cause.among > cause.missions else ""
+
+
+def _kept(names: Sequence[str]) -> str:
+    return "is" if len(names) == 1 else "are"
 
 
 def _short(text: str) -> str:

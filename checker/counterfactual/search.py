@@ -39,7 +39,7 @@ from checker.mutation.shared_objects import with_shared
 from checker.mutation.successors import with_successors
 from checker.mutation.told_by_text import with_told
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
-from checker.oracle import Verdict, given_up, judge_losses
+from checker.oracle import Verdict, given_up, judge_losses, judged_beside
 from checker.proofs.places import text_of
 from checker.sampling.sampler import with_point
 from compiler.program import Program
@@ -61,6 +61,7 @@ class Suspended:
     overlay: Overlay = ()
     mission: Mission | None = None  # whose file is tried too
     findings: tuple[Diagnostic, ...] = ()  # what lint warns of in the models, and of goals without enough time
+    beside: frozenset[str] = frozenset()  # properties that may be violated: what is sought is the cause of another end
 
 
 class CauseSearch:
@@ -80,18 +81,19 @@ class CauseSearch:
         """The causes of one fault."""
         bounds = replace(self._bounds, seconds=min(self._bounds.seconds, max(self._left, 0.0)))
         first = missions.failed[0]
-        trials = find_causes(missions, _apart(self._world, first), bounds)
+        beside = _beside(first, missions.beside)
+        trials = find_causes(missions, _apart(self._world, first, beside), bounds)
         root = Path(self._world.agent.root)
         found = rank(trials, root, _raised_in(first), _asleep_in(first, self._world.agent))
         remarks = remarks_of(self._world.findings, root)
-        return replace(found, flown=first.number, remarks=remarks, aside=_aside(first))
+        return replace(found, flown=first.number, remarks=remarks, aside=_aside(first), beside=tuple(sorted(beside)))
 
-    def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
+    def mends(self, cause: RankedLine, failed: MissionResult, beside: frozenset[str] = frozenset()) -> bool:
         """Whether the change of a cause makes another failed mission pass, with all goals; False where time is over."""
         left = min(self._left, self._bounds.seconds)
         if cause.change is None or cause.claim is Claim.EVADES or left <= 0.0 or self._bounds.flights == 0:
             return False
-        result = _fly(_apart(self._world, failed), cause.change, failed, left)
+        result = _fly(_apart(self._world, failed, _beside(failed, beside)), cause.change, failed, left)
         damage = _as_flown(Missions([failed]), self._world.agent).damage_of(result, failed)
         return result.verdict is Verdict.PASS and damage + voided_of(result, failed) < HEAVY
 
@@ -101,10 +103,15 @@ def _aside(failed: MissionResult) -> tuple[str, ...]:
     return tuple(one.name for one in failed.judgement.also)
 
 
-def _apart(world: Suspended, failed: MissionResult) -> Suspended:
-    """The same, where missions are not judged by what was violated beside the first property."""
+def _beside(failed: MissionResult, beside: frozenset[str]) -> frozenset[str]:
+    """Of the properties that missions violate anyway, those that a failure has nothing to do with: none of a P1."""
+    return frozenset() if failed.judgement.broken is not None else beside
+
+
+def _apart(world: Suspended, failed: MissionResult, beside: frozenset[str]) -> Suspended:
+    """The same, where missions are not judged by what was violated beside the first property, or another failure."""
     kept = tuple(one for one in world.agent.properties if one.name not in _aside(failed))
-    return replace(world, agent=replace(world.agent, properties=kept))
+    return replace(world, agent=replace(world.agent, properties=kept), beside=beside)
 
 
 def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]:
@@ -200,4 +207,5 @@ def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult, most_seconds
     agent = with_point(agent, mission.point)
     # What passes is asked what it did in a moment, and may fail by the limits.
     result = world.flyer.fly(agent, mission.number, mission.seed, load, keeps_trace=True, most_seconds=most_seconds)
-    return replace(result, judgement=judge_losses(result.judgement, result.losses, world.limits))
+    judgement = judged_beside(result.judgement, world.beside)
+    return replace(result, judgement=judge_losses(judgement, result.losses, world.limits))

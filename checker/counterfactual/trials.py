@@ -19,6 +19,7 @@ from checker.counterfactual.damage import (
     is_farther,
     is_worse,
     strayed_of,
+    violated_of,
     voided_of,
 )
 from checker.counterfactual.effort import Bounds, Stopwatch
@@ -276,7 +277,7 @@ class _Trials:
     def read(self, candidate: Candidate, edit: SmallEdit, cost: float, result: MissionResult) -> LineTrial:
         """What a flight of the first failed mission tells that passes with an edit."""
         failed = self.missions.failed[0]
-        lost = sum(of(result, failed) for of in (strayed_of, collapsed_of, voided_of))
+        lost = sum(of(result, failed) for of in (strayed_of, collapsed_of, voided_of)) + violated_of(result)
         damage = lost + self.missions.damage_of(result, failed) + _PATCHED * self.missions.is_patched(result)
         return LineTrial(candidate, edit, damage, cost, is_evasive=self.missions.is_evasive(result))
 

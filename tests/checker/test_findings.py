@@ -66,7 +66,7 @@ class Stub:
     def causes(self, missions: Missions) -> Causes:
         return Causes((self.cause,))
 
-    def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
+    def mends(self, cause: RankedLine, failed: MissionResult, beside: frozenset[str]) -> bool:
         return False
 
 
@@ -87,7 +87,7 @@ class LateStub(Stub):
         self.asked = getattr(self, "asked", 0) + 1
         return Causes((self.cause,)) if self.asked > 1 else Causes(flights=40)
 
-    def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
+    def mends(self, cause: RankedLine, failed: MissionResult, beside: frozenset[str]) -> bool:
         return cause == self.cause
 
 
@@ -112,7 +112,7 @@ class WiderStub(Stub):
     def causes(self, missions: Missions) -> Causes:
         return Causes((self.found.pop(),))
 
-    def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
+    def mends(self, cause: RankedLine, failed: MissionResult, beside: frozenset[str]) -> bool:
         return cause == self.cause and failed.number != self.fails
 
 
@@ -137,7 +137,7 @@ def test_a_later_cause_that_mends_a_group_before_is_that_of_both(claim: Claim, f
 class UnlikeStub(WiderStub):
     """A seeker of whose causes none mends what the others are of."""
 
-    def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
+    def mends(self, cause: RankedLine, failed: MissionResult, beside: frozenset[str]) -> bool:
         return False
 
 
