@@ -97,7 +97,7 @@ def _turned(order: _Order) -> _Order:
 def _is_swap(order: _Order, before: str, after: str) -> bool:
     """Whether two arguments have changed places."""
     (_, old), (_, new), (_, at, to, _) = _made(before), _made(after), order
-    return old[at] == new[to] and old[to] == new[at]
+    return float(old[at]) == float(new[to]) and float(old[to]) == float(new[at])
 
 
 def _is_in_order(text: str) -> bool:

@@ -11,7 +11,7 @@ from typing import Any
 from checker.mutation.agreement import Agreement
 from checker.mutation.comments import numbers_beside, tells_rate
 from checker.mutation.copies import copied_names, said_before
-from checker.mutation.exchanges import exchangeable, exchanged, misplaced, recast, shortened, turned
+from checker.mutation.exchanges import exchangeable, exchanged, exchanged_numbers, misplaced, recast, shortened, turned
 from checker.mutation.kinds import NUMERIC, EditKind
 from checker.mutation.missing_lines import missing_lines
 from checker.mutation.names import renamings, tautologies
@@ -354,7 +354,7 @@ class _Reader:
                 yield EditKind.ARGUMENTS, *exchanged(*arguments[:2])
             case NewExpr(arguments=arguments):
                 for first in range(len(arguments) - 1):
-                    yield EditKind.ARGUMENTS, *exchanged(*arguments[first : first + 2])
+                    yield EditKind.ARGUMENTS, *exchanged_numbers(*arguments[first : first + 2])
             case _:
                 pass
 

@@ -77,6 +77,19 @@ def recast(node: BinaryExpr) -> Iterator[tuple[Span, str]]:
                 yield first.to(last), last.text + between + first.text
 
 
+def exchanged_numbers(first: Expr, second: Expr) -> tuple[Span, str]:
+    """Two arguments of an object, exchanged: an int and a whole float take the form of their new places."""
+    match first, second:
+        case (IntLiteral(value=one), FloatLiteral(value=other)) if other.is_integer():
+            texts = repr(float(one)), str(int(other))
+        case (FloatLiteral(value=one), IntLiteral(value=other)) if one.is_integer():
+            texts = str(int(one)), repr(float(other))
+        case _:
+            return exchanged(first, second)
+    between = first.span.source.text[first.span.finish : second.span.begin]
+    return first.span.to(second.span), texts[1] + between + texts[0]
+
+
 def exchanged(first: Expr | Identifier, second: Expr | Identifier) -> tuple[Span, str]:
     """Two expressions, the first before the second, each in the place of the other."""
     between = first.span.source.text[first.span.finish : second.span.begin]

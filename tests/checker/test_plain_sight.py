@@ -26,6 +26,7 @@ int EACH = 16;
 int HEAD = 2;
 class Window { int opens; int closes; Window(int a, int b) { opens = a; closes = b; } }
 class Gap { int number; int opens; int closes; Gap(int n, int a, int b) { number = n; opens = a; closes = b; } }
+class Pen { int number; float fish; Pen(int n, float f) { number = n; fish = f; } }
 class Wind extends AgentTimeline {
   predicate Calm { int left; }
   predicate Gusty { int left; }
@@ -50,6 +51,8 @@ Window evening = new Window(50, 60);
 Gap first = new Gap(1, 5, 25);
 Gap second = new Gap(2, 45, 30);
 Gap third = new Gap(3, 50, 60);
+Pen north = new Pen(1, 60.0);
+Pen south = new Pen(120, 2.0);
 """
 
 
@@ -100,6 +103,8 @@ def test_an_object_that_is_made_the_other_way_round_is_seen_without_a_flight(sit
     usual = change(sites, "Window morning = new Window(10, 20);", EditKind.ARGUMENTS, "20, 10")
     assert usage.directions.is_put_in_order(*turned) and not usage.directions.is_put_in_order(*usual)
     assert delay_of(*turned, usage) == -1.0
+    mixed = change(sites, "Pen south = new Pen(120, 2.0);", EditKind.ARGUMENTS, "2, 120.0")
+    assert delay_of(*mixed, usage) == -1.0
 
 
 @pytest.mark.parametrize(("new", "is_right"), [("30, 45", True), ("45, 2", False)])
