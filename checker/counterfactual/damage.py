@@ -123,6 +123,12 @@ def collapsed_of(result: MissionResult, failed: MissionResult) -> float:
     return _COLLAPSED * min(sum(ticks <= 1 and before.get(name, 0) >= _LONG for name, ticks in after.items()), 2)
 
 
+def is_cut_short(result: MissionResult, failed: MissionResult, own: str) -> bool:
+    """Whether tokens of a predicate last a tick at most, and did not in the failed mission; `own` need not be there."""
+    before = {own: _LONG, **_longest(failed)}
+    return any(ticks <= 1 < before.get(name, 0) for name, ticks in _longest(result).items())
+
+
 def _longest(result: MissionResult) -> dict[str, int]:
     """How long each predicate held at most, by its name."""
     if result.outcome is None:

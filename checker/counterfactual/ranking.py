@@ -153,7 +153,7 @@ def _claim(trial: LineTrial) -> Claim:
         return Claim.EVADES
     if trial.helped < trial.missions or trial.spoilt:
         return Claim.PARTLY
-    if not trial.candidate.takes_away(trial.edit):
+    if not trial.takes_away:
         return Claim.MENDS
     return Claim.CODED if trial.candidate.site.coded else Claim.LOOSENS
 

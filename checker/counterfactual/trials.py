@@ -16,6 +16,7 @@ from checker.counterfactual.damage import (
     HEAVY,
     collapsed_of,
     course_of,
+    is_cut_short,
     is_farther,
     is_worse,
     strayed_of,
@@ -27,7 +28,7 @@ from checker.counterfactual.follow_ups import alternatives, follow_ups
 from checker.counterfactual.missions import Missions
 from checker.counterfactual.numbers import between, is_doubling, is_raised
 from checker.counterfactual.orders import is_order_turned
-from checker.counterfactual.smallness import cost_of, delay_of, first_edits, is_probe
+from checker.counterfactual.smallness import cost_of, delay_of, first_edits, is_probe, sets_no_more
 from checker.counterfactual.tried import LineTrial, Trials, TrialsEnd
 from checker.counterfactual.turns import Turns
 from checker.counterfactual.usage import Usage
@@ -198,7 +199,7 @@ def _is_spoken(candidate: Candidate) -> bool:
 
 def _is_gain(edit: SmallEdit, known: LineTrial) -> bool:
     """Whether an edit takes no demand away where the one that helped does."""
-    return known.candidate.takes_away(known.edit) and not known.candidate.takes_away(edit)
+    return known.takes_away and not known.candidate.takes_away(edit)
 
 
 def _small(best: Mapping[EditSite, LineTrial]) -> int:
@@ -279,7 +280,9 @@ class _Trials:
         failed = self.missions.failed[0]
         lost = sum(of(result, failed) for of in (strayed_of, collapsed_of, voided_of)) + violated_of(result)
         damage = lost + self.missions.damage_of(result, failed) + _PATCHED * self.missions.is_patched(result)
-        return LineTrial(candidate, edit, damage, cost, is_evasive=self.missions.is_evasive(result))
+        is_freed = sets_no_more(edit) and is_cut_short(result, failed, candidate.site.rule.rpartition(".")[2])
+        evades = self.missions.is_evasive(result)
+        return LineTrial(candidate, edit, damage, cost, is_evasive=evades, is_freed=is_freed)
 
     def confirmed(self, trial: LineTrial, helping: Sequence[LineTrial], usage: Usage) -> LineTrial:
         """The trial with what it does to the other missions; of its line, the likeliest edit that helps all, if any.

@@ -28,7 +28,7 @@ class LineTrial:
     """A change that makes the mission pass: what is still lost then, and on how many failed missions it helps.
 
     `spoilt` missions passed before and do not with the change; `is_evasive`: what is usual does not happen then.
-    `is_untried`: it was tried on no other mission.
+    `is_untried`: it was tried on no other mission. `is_freed`: it lets a token end at once that an `==` made last.
     """
 
     candidate: Candidate
@@ -40,6 +40,12 @@ class LineTrial:
     spoilt: int = 0
     is_evasive: bool = False
     is_untried: bool = True
+    is_freed: bool = False
+
+    @property
+    def takes_away(self) -> bool:
+        """Whether it takes a demand away, by its text or by what came of it."""
+        return self.is_freed or self.candidate.takes_away(self.edit)
 
     @property
     def toll(self) -> float:
@@ -49,12 +55,12 @@ class LineTrial:
     @property
     def order(self) -> tuple[bool, float]:
         """Of the changes of one line, the first counts: what takes no demand away is before what does."""
-        return self.toll < HEAVY and self.candidate.takes_away(self.edit), self.toll
+        return self.toll < HEAVY and self.takes_away, self.toll
 
     @property
     def is_small(self) -> bool:
         """Whether it makes the mission pass with all its goals, and takes no demand away."""
-        return self.toll < HEAVY and not self.candidate.takes_away(self.edit)
+        return self.toll < HEAVY and not self.takes_away
 
     @property
     def is_clean(self) -> bool:

@@ -12,6 +12,7 @@ from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.damage import ALIKE, HEAVY, collapsed_of, voided_of
 from checker.counterfactual.effort import Bounds
 from checker.counterfactual.missions import Missions
+from checker.counterfactual.ranking import Claim, rank
 from checker.counterfactual.smallness import cost_of, delay_of
 from checker.counterfactual.trials import Try, try_out
 from checker.counterfactual.tried import LineTrial, Trials
@@ -284,3 +285,21 @@ def test_what_a_reactor_in_python_is_given_is_tried_both_ways_at_once(tmp_path: 
     found = sites(tmp_path) | {line.text: replace(line, edits=edits)}
     tried(found, [line.text, "duration <= SPAN;"], fly)
     assert flown[:2] == ["600", "6"]
+
+
+@pytest.mark.parametrize(("sign", "claims"), [("-", [Claim.MENDS]), ("", [Claim.LOOSENS])])
+def test_a_bound_for_what_was_set_takes_the_demand_away_where_the_token_ends_at_once(
+    sign: str, claims: list[Claim], tmp_path: Path
+) -> None:
+    def fly(edit: SmallEdit, mission: MissionResult, _: float) -> MissionResult:
+        is_bound = edit.kind is EditKind.COMPARISON
+        seen = (("Flies", 20), ("Bare", 21 if is_bound else 24))
+        events = tuple(
+            Event(tick, Phase.START, EventKind.OBSERVATION, "sea", "mast", predicate, (), ())
+            for predicate, tick in seen
+        )
+        flown = result(mission.number, Verdict.PASS if is_bound or edit.new == sign else Verdict.FAIL)
+        return replace(flown, outcome=Outcome(1, 90, 200, None, (), events, ()))
+
+    trials = tried(sites(tmp_path), ["by == start + GRACE;"], fly, failed=1, passed=0)
+    assert [one.claim for one in rank(trials, tmp_path).ranked] == claims
