@@ -6,6 +6,7 @@ being violated (in units of the argument, or in ticks); it steers the adaptive s
 
 import ast
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
@@ -15,17 +16,13 @@ from checker.levels import level_fate
 from checker.sampling.rendering import number
 from compiler.program import TOKEN_TIMES
 from runtime.executive.columns import TokenColumns
-from runtime.executive.configuration import (
-    AgentConfiguration,
-    PropertyConfiguration,
-    PropertyKind,
-    TokenPattern,
-)
+from runtime.executive.configuration import AgentConfiguration, PropertyConfiguration, PropertyKind, TokenPattern
 from runtime.executive.expression import ExpressionError, parse_expression
 from runtime.executive.outcome import Event, EventKind, PropertyFate
 from runtime.executive.record import MissionRecord, OpenValues, ReactorRecord, TokenRecord, ValueRange
 
 _MOST_SHOWN = 4  # values of an argument
+_NUMBERS = re.compile(r"\d+(?:\.\d+)?")
 _ORDERS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 
 
@@ -285,8 +282,17 @@ def _best(pattern: TokenPattern, token: _Held) -> float:
 def _margins(pattern: TokenPattern, token: _Held) -> list[float]:
     if token.end < math.inf:
         return [_margin_of(pattern, token)]
-    soonest = {"end": token.least_end, "duration": token.least_end - token.start}
-    return [_margin_of(pattern, each) for each in (token, replace(token, arguments={**token.arguments, **soonest}))]
+    ends = [math.inf, token.least_end, *_ends_told(pattern, token)]
+    given = [{**token.arguments, "end": end, "duration": end - token.start} for end in ends]
+    return [_margin_of(pattern, replace(token, arguments=each)) for each in given]
+
+
+def _ends_told(pattern: TokenPattern, token: _Held) -> list[float]:
+    """The later ends at which a pattern may come to match, or cease to: at its numbers and the token's, and beside."""
+    told = [float(each) for each in _NUMBERS.findall(f"{pattern.where} {pattern.parameters}")]
+    told += [float(value) for value in token.arguments.values() if isinstance(value, int | float)]
+    ends = {first + each + step for each in told for first in (0, token.start) for step in (-1.0, 0.0, 1.0)}
+    return sorted(end for end in ends if token.least_end < end < math.inf)
 
 
 def _margin_of(pattern: TokenPattern, token: _Held) -> float:

@@ -209,7 +209,7 @@ def run_named(store: RunStore, name: str) -> Run:
 def check_random(run: Run, number: int) -> None:
     """Complain of a mission that was not flown, unless it is a random one of the run, which its number tells."""
     if not 1 <= number <= run.missions:
-        raise Unusable(f"run {run.id} has missions 1 to {run.missions}, not {number}")
+        raise Unusable(f"run {run.id} has missions 1 to {run.missions}, not {number if number >= 0 else f'k{-number}'}")
     if run.sampler != "random":
         raise Unusable(f"{mission_name(number)} of run {run.id} was not flown, and only the sampler knows where it is")
 

@@ -243,4 +243,10 @@ def _so_far(goal: OpenGoal, events: Sequence[Event]) -> str:
         ),
         None,
     )
-    return ": it had not begun" if began is None else f": it began at tick {began}, and nothing has ended it"
+    if began is None:
+        return ": it had not begun"
+    killed = [one.tick for one in events if one.kind is EventKind.KILL and one.tick >= began]
+    of_it = [one for one in events if one.timeline == goal.timeline and one.predicate == "Failed" and one.tick >= began]
+    if killed and of_it:
+        return f": it began at tick {began}, and its owner was killed at tick {killed[0]}"
+    return f": it began at tick {began}, and nothing has ended it"

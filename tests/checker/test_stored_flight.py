@@ -34,6 +34,7 @@ def test_a_mission_that_a_sampler_placed_is_flown_there(
     for what, problem in (
         ("latest#99", "has missions 1 to 16, not 99"),
         ("latest#0", "16, not 0"),
+        ("latest#k1", "16, not k1"),
         ("latest#x", "is no number of a mission"),
     ):
         capsys.readouterr()

@@ -140,6 +140,10 @@ def test_a_goal_that_nothing_ends_is_told_so(
     assert run(["run", "retry/mission.toml"]) == 1
     said = capsys.readouterr().out
     assert "open: Fetch: it began at tick 150, and nothing has ended it\n" in said
+    mission.write_text(mission.read_text().replace("final_tick", 'on_failure = "kill_reactor"\nfinal_tick', 1))
+    planner.write_text(planner.read_text().replace("contains(", "duration <= 3; contains(", 1))
+    assert run(["run", "retry/mission.toml"]) == 1
+    assert "killed at tick" in capsys.readouterr().out
     assert "open: Fetch: its time to be sent had not come\n" in said
 
 
