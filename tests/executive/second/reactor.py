@@ -233,7 +233,7 @@ class Reactor:
     def _reopen(self) -> None:
         """What was rejected may have room now that something else has left the plan."""
         for goal in self.goals:
-            if goal.state == "rejected" and goal.start[1] > self.tick:
+            if goal.state == "rejected" and goal.start[1] > self.tick and goal.failures < 2:
                 goal.state = "open"
 
     def _is_cut_off(self, goal: Goal, news: dict[str, News]) -> bool:
