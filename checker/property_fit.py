@@ -46,6 +46,9 @@ def _time_misfits(mission: Mission, one: PropertyConfiguration, path: _Path) -> 
     if 0 < final <= one.since:
         wanted = f"before the end of the mission, {final}"
         yield OUT_OF_RANGE.at(mission.text.value_span((*path, "from")), key="from", wanted=wanted, found=one.since)
+    elif one.by is not None and one.by < one.since:
+        wanted = f"at most `by`, {one.by}"
+        yield OUT_OF_RANGE.at(mission.text.value_span((*path, "from")), key="from", wanted=wanted, found=one.since)
     if one.by is not None and 0 < final < one.by:
         span = mission.text.value_span((*path, "by"))
         yield NO_EFFECT.at(span, what=f"by = {one.by}", help=f"the mission ends at tick {final}")

@@ -124,13 +124,13 @@ class Watch(CallSlot):
     def _exit(self, status: int) -> NoReturn:
         """In place of `os._exit`: the end of the process is not a modeler's to choose, nor its exit code."""
         if self.call is not None and get_ident() == self._thread:
-            raise RuntimeError(f"os._exit({status}) is not for a constraint: return False, or raise an exception")
+            raise RuntimeError(f"os._exit({status}) is not for a constraint, nor for a reactor: raise an exception")
         _END(status)
 
     def _abort(self) -> NoReturn:
         """In place of `os.abort`."""
         if self.call is not None and get_ident() == self._thread:
-            raise RuntimeError("os.abort() is not for a constraint: return False, or raise an exception")
+            raise RuntimeError("os.abort() is not for a constraint, nor for a reactor: raise an exception")
         _ABORT()
 
     def _note_fork(self) -> None:

@@ -89,6 +89,7 @@ def test_a_resource_may_be_a_part_of_another_object(
         ('resource = "battery"', 'timeline = "rover"', "is `resource` meant, which is missing?"),
         ("level = [75, inf]", "level = [75, inf]\nby = 9000", "`by = 9000` has no effect here"),
         ("level = [75, inf]", "level = [75, inf]\nfrom = 9000", "`from` must be before the end of the mission"),
+        ("level = [75, inf]", "level = [75, inf]\nfrom = 9\nby = 5", "`from` must be at most `by`, 5, not 9"),
     ],
 )
 def test_a_mistake_about_a_level_is_named(
