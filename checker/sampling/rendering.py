@@ -1,6 +1,7 @@
 """Say in words how a parameter is drawn, for reports and explanations."""
 
 import math
+import sys
 
 from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.distributions import DISTRIBUTIONS, moments
@@ -10,6 +11,8 @@ def number(value: float) -> str:
     """A number as people write it: at most six digits, no needless ones."""
     if math.isinf(value):
         return "inf" if value > 0 else "-inf"
+    if abs(value) < sys.float_info.min:  # what intervals that are rounded outwards make of 0
+        return "0"
     return str(int(value)) if value == int(value) and abs(value) < 1e15 else f"{value:.6g}"
 
 

@@ -34,6 +34,11 @@ def test_of_an_argument_that_was_never_decided_all_values_count(
     assert found.seen == ("" if found.is_kept else "`depth` was never decided (42 to 50)")
 
 
+def test_a_bound_that_rounding_made_of_0_is_told_as_0() -> None:
+    one = token("dive", "Dive.Down", 10, 30, ValueRange(-5e-324, 2.5), "FAST")
+    assert fate("always", down("depth >= 40"), tokens=(one,)).seen == "`depth` was never decided (0 to 2.5)"
+
+
 def test_an_argument_that_a_token_does_not_have_is_none_that_was_never_decided() -> None:
     found = fate("always", TokenPattern("dive", "", (("depth", 42.0),)), tokens=(token("dive", "Dive.Up", 10, 30),))
     assert not found.is_kept and found.seen == ""
