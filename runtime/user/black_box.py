@@ -9,6 +9,7 @@ import mmap
 import os
 import re
 import signal
+import sys
 from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
@@ -51,7 +52,10 @@ class CallRecorder:
         self._words = memoryview(mmap.mmap(file, _PAGE)).cast("q")
         self._code: UserCode | None = None
         self._state = 0
-        faulthandler.enable(file, all_threads=False)
+        if sys.version_info >= (3, 14):
+            faulthandler.enable(file, all_threads=False, c_stack=False)
+        else:
+            faulthandler.enable(file, all_threads=False)
         if _ASK is not None:
             faulthandler.register(_ASK, file, all_threads=False)
 
