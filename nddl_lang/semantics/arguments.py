@@ -80,6 +80,9 @@ def check_types(
             if not _is_of_kind(context, argument, type_, reference):
                 is_number = argument.kind in (ArgumentKind.NUMBER, ArgumentKind.TIME)
                 help_, fixes = member_meant(context, expression, type_) if is_number else (None, ())
+                if argument.kind is ArgumentKind.RESOURCE and context.symbols.is_subclass(type_.base, "Reusable"):
+                    asked = f"contains({expression.span.text}.uses u); u.quantity == ...;"
+                    help_ = f"a `Reusable` is used by a token: `{asked}`"
                 fixes = fixes or _in_order(context, signature, arguments, types)
                 complain_argument(context, name, argument, expression, phrase(type_), (), fixes, help_)
         elif like is None:
