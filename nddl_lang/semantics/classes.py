@@ -128,7 +128,8 @@ def _check_members(context: Context, owner: Class, node: ClassDecl) -> None:
 def _tie_types_before_constructors(context: Context, node: ClassDecl) -> None:
     """Complain of an unknown type where it stands first: the parameters of constructors are looked at before others."""
     members = node.members or ()
-    if any(isinstance(member, BrokenStatement) for member in members):
+    kinds = {type(member) for member in members}
+    if BrokenStatement in kinds or ConstructorDecl not in kinds:
         return
     for member in members:
         if isinstance(member, ConstructorDecl):

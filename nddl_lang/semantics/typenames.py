@@ -38,6 +38,8 @@ def find_type(context: Context, name: Identifier) -> Type | None:
     """The type of that name; a complaint where there is none."""
     type_ = known_type(context, name.name)
     if type_ is None:
+        if _is_told(context, name.name):
+            return None
         known = [*BASIC_TYPES, *context.symbols.names(*_TYPE_TABLES)]
         word = name.name.casefold()
         meant = word if word in _ELSEWHERE else nearest(name.name, [*known, *_ELSEWHERE])
@@ -97,6 +99,11 @@ def find_defined_class(context: Context, name: Identifier) -> Class | None:
     return found
 
 
+def _is_told(context: Context, name: str) -> bool:
+    """Whether of a name that is missing nothing more is to be said."""
+    return name in context.reported or context.symbols.is_doubtful(name)
+
+
 def _complain_missing(
     context: Context, name: Identifier, code: Code, candidates: Iterable[str], meant: str | None = None
 ) -> None:
@@ -105,7 +112,7 @@ def _complain_missing(
     `meant` is what should stand here where that is known, else the nearest of the candidates.
     """
     word = name.name
-    if word in context.reported or context.symbols.is_doubtful(word):
+    if _is_told(context, word):
         return
     context.reported.add(word)
     complaint: Diagnostic = code.at(name.span, name=word)

@@ -165,7 +165,7 @@ def test_a_mission_that_does_not_fit_its_models_is_refused(agent: None, capsys: 
     assert [(one["code"], one["message"], one["help"]) for one in found] == [
         ("NDDL716", "the model `psim.nddl` has no object `motions`", "did you mean `motion`?"),
         ("NDDL717", "`Nav` has no predicate `Transot`", "did you mean `Transit`?"),
-        ("NDDL718", "`Nav.Transit` has no parameter `way`", "parameters: distance"),
+        ("NDDL718", "`Nav.Transit` has no parameter `way`", "did you mean `distance`?"),
     ]
 
 
