@@ -23,7 +23,7 @@ _PAGE = 4096
 _STATE, _LIMIT, _EXCUSED, _LEAVING, _LENGTH, _TEXT = range(6)
 _BEGUN, _ENDED = 256 + 1, 256 - 1
 _WORD = 8
-_PATIENCE, _STILL = 500, 5  # looks, a hundredth of a second apart, for an answer, and of those at one that is whole
+_PATIENCE, _STILL = 500, 20  # looks, a hundredth of a second apart, for an answer, and of those at one that is whole
 _SLACK = 3.5  # seconds beyond the limit: those who look inside the process come first
 _FRAME = re.compile(r'^  File "(.*)", line (\d+) in ', re.MULTILINE)
 _ASK = getattr(signal, "SIGUSR2", None)
@@ -157,7 +157,7 @@ class BlackBox:
             for _ in range(_PATIENCE):  # the answer comes in pieces, on a busy machine late
                 signal.sigtimedwait((), 0.01)
                 known, size = size, os.fstat(self._file).st_size
-                still = still + 1 if before < size == known else 0
+                still = still + 1 if before < size == known and self._frames() else 0
                 if still == _STILL:
                     break
         title, line, files = self._code()
