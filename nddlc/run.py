@@ -245,8 +245,8 @@ def _so_far(goal: OpenGoal, events: Sequence[Event]) -> str:
     )
     if began is None:
         return ": it had not begun"
-    killed = [one.tick for one in events if one.kind is EventKind.KILL and one.tick >= began]
-    of_it = [one for one in events if one.timeline == goal.timeline and one.predicate == "Failed" and one.tick >= began]
-    if killed and of_it:
-        return f": it began at tick {began}, and its owner was killed at tick {killed[0]}"
+    owners = {one.reactor for one in events if one.timeline == goal.timeline and one.predicate == "Failed"}
+    killed = next((one.tick for one in events if one.kind is EventKind.KILL and one.reactor in owners), None)
+    if killed is not None and killed >= began:
+        return f": it began at tick {began}, and its owner was killed at tick {killed}"
     return f": it began at tick {began}, and nothing has ended it"
