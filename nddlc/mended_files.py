@@ -10,7 +10,7 @@ from nddl_lang.lint.mending import Mended, mend, text_to_mend
 from nddl_lang.lint.settings import Settings
 from nddl_lang.mission_suffixes import MISSION_SUFFIXES
 from nddl_lang.text.diagnostic import Diagnostic
-from nddl_lang.text.read import read_text, real_path
+from nddl_lang.text.read import read_over, real_path
 from nddl_lang.text.source import Source
 from nddlc.main import named
 
@@ -39,8 +39,7 @@ def mission_findings(source: Source, root: Path) -> tuple[Diagnostic, ...]:
 def mended_files(checker: Checker, path: Path, settings: Settings, *, unsafe: bool) -> Iterator[MendedFile]:
     """The file at `path` after its fixes, and behind a mission its models and the configurations of its solvers."""
     if path.suffix not in MISSION_SUFFIXES:
-        outcome = checker.mend(path, settings, unsafe=unsafe)
-        yield MendedFile(path, *outcome) if outcome is not None else MendedFile(path, "", None)
+        yield _as_file(path, checker.mend(path, settings, unsafe=unsafe))
     elif path.name not in (NAME, PROJECT):
         quiet = settings.for_mending()
         # What cannot be read as a mission is mended first: that its models do not fit is seen only behind that.
@@ -55,7 +54,11 @@ def mended_files(checker: Checker, path: Path, settings: Settings, *, unsafe: bo
 def mended_parts(checker: Checker, *, unsafe: bool) -> Iterator[MendedFile]:
     """The files that the models `checker` has mended include, and no others, after their fixes."""
     for path, outcome in checker.mend_parts(unsafe=unsafe):
-        yield MendedFile(path, *outcome) if outcome is not None else MendedFile(path, "", None)
+        yield _as_file(path, outcome)
+
+
+def _as_file(path: Path, outcome: tuple[str, Mended] | None) -> MendedFile:
+    return MendedFile(path, *outcome) if outcome is not None else MendedFile(path, "", None)
 
 
 def _mended(path: Path, checks: list[_Examine], settings: Settings, *, unsafe: bool) -> MendedFile:
@@ -103,11 +106,7 @@ def _as_model_of(mission: MendedFile) -> _Examine:
     source = Source(str(mission.path), mission.mended.text)
 
     def examine(model: Source, _root: Path) -> tuple[Diagnostic, ...]:
-        changed = real_path(Path(model.name))
-
-        def open_text(path: Path) -> str | None:
-            return model.text if real_path(path) == changed else read_text(path)
-
+        open_text = read_over({real_path(Path(model.name)): model.text})
         found: tuple[Diagnostic, ...] = named("checker.models:examine")(source, mission.path.parent, open_text)
         return found
 

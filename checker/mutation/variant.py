@@ -14,7 +14,7 @@ from nddl_lang.lint.configuration import settings_in
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import LoadedModules, load_module_graph
 from nddl_lang.syntax.parser import MOST_ASKED_FOR, Parse, parse, parse_members
-from nddl_lang.text.read import read_text, real_path
+from nddl_lang.text.read import read_over
 from nddl_lang.text.source import Source
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms
@@ -32,8 +32,7 @@ class _UnreadableEditError(ValueError):
 
 def open_over(overlay: Overlay) -> Callable[[Path], str | None]:
     """Opens files as `overlay` has them, and others as they are."""
-    texts = dict(overlay)
-    return lambda path: texts[name] if (name := str(real_path(path))) in texts else read_text(path)
+    return read_over({Path(name): text for name, text in overlay})
 
 
 def with_edit(overlay: Overlay, edit: SmallEdit) -> Overlay:

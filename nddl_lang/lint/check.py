@@ -17,7 +17,7 @@ from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import load_module_graph
 from nddl_lang.syntax.nodes import Identifier
 from nddl_lang.text.diagnostic import Diagnostic, Severity
-from nddl_lang.text.read import decode, read_named, read_text, real_path
+from nddl_lang.text.read import decode, read_named, read_over, read_text, real_path
 from nddl_lang.text.source import Anchor, Source, Span
 
 
@@ -121,11 +121,9 @@ class Checker:
         is_repaired: bool = False,
         texts: Mapping[Path, str] | None = None,
     ) -> tuple[Diagnostic, ...]:
-        def open_text(path: Path) -> str | None:
-            return read_text(path) if texts is None else texts.get(real_path(path)) or read_text(path)
-
         directories = (*self._directories, *settings.directories)
         dialect = self._dialect or settings.dialect
+        open_text = read_text if texts is None else read_over(texts)
         loaded = load_module_graph(source, directories, dialect, open_text=open_text, most=settings.most_lexemes)
         for included, place in loaded.paths.items():
             if included is not source and (part := real_path(place)) in self._parts:

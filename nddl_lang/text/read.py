@@ -3,6 +3,7 @@
 import os
 import re
 import stat
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from nddl_lang.text.source import Source
@@ -47,6 +48,11 @@ def read_text(path: Path) -> str | None:
         if not stat.S_ISREG(kind.st_mode):
             raise NotAFileError(0, f"it is {kind_of(kind.st_mode)}, not a file", str(path))
         return decode(_bounded(opened.read(LARGEST + 1) or b"", path))
+
+
+def read_over(texts: Mapping[Path, str]) -> Callable[[Path], str | None]:
+    """Reads files as `texts` have them, by their real paths, and others as they are."""
+    return lambda path: texts[real] if (real := real_path(path)) in texts else read_text(path)
 
 
 def read_source(path: Path | str) -> Source:
