@@ -20,7 +20,12 @@ def relative_name(name: str, root: Path) -> str:
 
 def mission_name(number: int) -> str:
     """A mission of a run as commands take it; `mission k3` is the third failure that the store has kept."""
-    return f"mission k{-number}" if number < 0 else f"mission {number}"
+    return f"mission {number_text(number)}"
+
+
+def number_text(number: int) -> str:
+    """The number of a mission as commands take it: `k3` of one that the store has kept."""
+    return f"k{-number}" if number < 0 else str(number)
 
 
 def as_named(file: str) -> Path:

@@ -43,11 +43,12 @@ def property_misfits(mission: Mission, programs: Mapping[str, Program]) -> Itera
 def _time_misfits(mission: Mission, one: PropertyConfiguration, path: _Path) -> Iterator[Diagnostic]:
     """Complain of times that no mission lasts to."""
     final = mission.agent.final_tick
+    wanted = ""
     if 0 < final <= one.since:
         wanted = f"before the end of the mission, {final}"
-        yield OUT_OF_RANGE.at(mission.text.value_span((*path, "from")), key="from", wanted=wanted, found=one.since)
     elif one.by is not None and one.by < one.since:
         wanted = f"at most `by`, {one.by}"
+    if wanted:
         yield OUT_OF_RANGE.at(mission.text.value_span((*path, "from")), key="from", wanted=wanted, found=one.since)
     if one.by is not None and 0 < final < one.by:
         span = mission.text.value_span((*path, "by"))

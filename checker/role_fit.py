@@ -118,9 +118,10 @@ def _strange_default(program: Program, bench: Workbench, timeline: str) -> Diagn
     close = nearest(default, known)
     advice = f"did you mean `{close}`?" if close else f"predicates: {', '.join(known)}"
     notes = _declared(program, timeline)
-    at = span.text.find(f'"{default}"') + 1
-    edit = Edit(Span(span.anchor, span.start + at, span.start + at + len(default)), close or "")
-    fixes = (Fix(f"write `{close}`", (edit,), safe=False),) if close and span.text.count(f'"{default}"') == 1 else ()
+    fixes: tuple[Fix, ...] = ()
+    if close and span.text.count(f'"{default}"') == 1:
+        start = span.start + span.text.index(f'"{default}"') + 1
+        fixes = (Fix(f"write `{close}`", (Edit(Span(span.anchor, start, start + len(default)), close),), safe=False),)
     return NO_DEFAULT.at(
         span, timeline=timeline, predicate=default, class_name=code.name, help=advice, notes=notes, fixes=fixes
     )

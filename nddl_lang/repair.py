@@ -112,7 +112,10 @@ def _proposed(error: Diagnostic, repairs: Sequence[TokenEdit], said: str | None)
     help_ = help_ if said is None else f"{said}; {help_}"
     fixes = tuple(
         Fix(
-            title, tuple(Edit(Span(anchor, begin, end), put) for begin, end, put in each.edits), False, len(repairs) > 1
+            title,
+            tuple(Edit(Span(anchor, begin, end), put) for begin, end, put in each.edits),
+            safe=False,
+            is_choice=len(repairs) > 1,
         )
         for each, (_, title) in zip(repairs, words, strict=True)
     )
@@ -251,14 +254,14 @@ class _Trials:
 
     def _is_doubtful(self, loaded: LoadedModules, tried: Sequence[Statement], begin: int, end: int) -> bool:
         """Whether there is a warning of what stands in the lines from `begin` to `end` of the statements `tried`."""
+        if not tried:
+            return False
         analysis = self._analyser.analyse(loaded)
         found = list(analysis.diagnostics)
         for statement in tried:
             part = Part(statement, analysis.by_statement[statement], analysis.dialect)
             found += (each for lint in _DOUBTS for each in lint(part) if isinstance(each, Diagnostic))
         found = [each for each in found if each.code is not NEVER_DECIDED]  # what is late may be meant
-        if not tried:
-            return False
         source = tried[0].span.source
         lines = range(source.locate(begin)[0], source.locate(end)[0] + 1)
         return any(each.span.source is source and each.span.line in lines for each in found)

@@ -23,7 +23,7 @@ from checker.judge.written_values import DocumentError
 from checker.logged import Departure, MissionLog, ReactorLog, first_departure, read_mission_log, with_players
 from checker.mission import read_mission
 from checker.models import ModelSet, load_models
-from checker.names import as_named, mission_name
+from checker.names import as_named, mission_name, number_text
 from checker.oracle import Verdict
 from checker.pinned import pinned
 from nddl_lang.text.values import json_text
@@ -209,7 +209,7 @@ def run_named(store: RunStore, name: str) -> Run:
 def check_random(run: Run, number: int) -> None:
     """Complain of a mission that was not flown, unless it is a random one of the run, which its number tells."""
     if not 1 <= number <= run.missions:
-        raise Unusable(f"run {run.id} has missions 1 to {run.missions}, not {number if number >= 0 else f'k{-number}'}")
+        raise Unusable(f"run {run.id} has missions 1 to {run.missions}, not {number_text(number)}")
     if run.sampler != "random":
         raise Unusable(f"{mission_name(number)} of run {run.id} was not flown, and only the sampler knows where it is")
 

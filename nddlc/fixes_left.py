@@ -5,6 +5,7 @@ from collections.abc import Collection, Sequence
 from pathlib import Path
 
 from nddl_lang.text.diagnostic import Diagnostic
+from nddl_lang.text.printable import counted
 
 
 def fixes_left(found: Sequence[Diagnostic], mendable: Collection[Path], *, unsafe: bool) -> list[str]:
@@ -30,8 +31,3 @@ def fixes_left(found: Sequence[Diagnostic], mendable: Collection[Path], *, unsaf
     )
     lines += [f"{counted(number, 'fix', 'fixes')} left, {reason}" for number, reason in reasons if number]
     return lines
-
-
-def counted(number: int, word: str, words: str | None = None) -> str:
-    """A number with its word, which is `words` for several."""
-    return f"{number} {word}" if number == 1 else f"{number} {words or word + 's'}"

@@ -17,13 +17,14 @@ from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
 from nddl_lang.text.junit import junit_of
+from nddl_lang.text.printable import counted
 from nddl_lang.text.read import read_source
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.sarif import sarif_of
 from nddl_lang.text.source import Span
 from nddl_lang.text.values import json_text
 from nddlc.fitting import colours, say
-from nddlc.fixes_left import counted, fixes_left
+from nddlc.fixes_left import fixes_left
 from nddlc.inputs import (
     Unusable,
     chosen_dialect,

@@ -64,7 +64,7 @@ class Formulas:
         factor, _, other = edit.old.partition("*")
         name = factor.strip()
         is_moved = edit.new == f"{other.strip()} / {name}" and name in self._constants
-        return is_moved and (name in self._rates or _SCALING.search(name) is not None)
+        return is_moved and self._is_scale(name)
 
     def repeats_factor(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether a product of something with a name becomes what has that name too: `mulEq(speed, time, SPEED)`."""
@@ -130,8 +130,11 @@ class Formulas:
     def _sort(self, pair: _Pair) -> str:
         kinds = {self._kind(pair[0]), self._kind(pair[2])}
         sort = next(one for one in (_ROUND, _NUMBER, _CONSTANT, _NAME) if one in kinds)
-        is_scale = any(one in self._rates or _SCALING.search(one) is not None for one in (pair[0], pair[2]))
+        is_scale = self._is_scale(pair[0]) or self._is_scale(pair[2])
         return _SCALE if is_scale and sort in (_CONSTANT, _NAME) else sort
+
+    def _is_scale(self, name: str) -> bool:
+        return name in self._rates or _SCALING.search(name) is not None
 
     def _kind(self, word: str) -> str:
         if word in (_ROUND, _SUM):

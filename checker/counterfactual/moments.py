@@ -43,10 +43,8 @@ def _exchanged(site: EditSite) -> Iterator[SmallEdit]:
     for found in _POINT.finditer(site.text) if is_limit or is_mixed or is_set else ():
         if found.group(2) == _SPAN and not is_mixed:
             continue  # what a duration is held to is hardly a moment
-        line = site.first + site.text.count("\n", 0, found.start())
-        span = (site.begin + found.start(), site.begin + found.end())
         for other in _OTHERS[found.group(2)]:
-            edit = SmallEdit(EditKind.POINT, site.file, *span, found.group(), found.group(1) + other, line)
+            edit = site.edit(EditKind.POINT, *found.span(), found.group(1) + other)
             if not _is_mixed(site.after(edit)):
                 yield edit
 

@@ -101,8 +101,7 @@ def _grown(site: EditSite, name: str, is_real: bool, is_local: bool) -> Iterator
         old = site.text[first:last]
         is_sum = sign in "*/" and len(list(_terms(old, 0, len(old)))) > 1
         new = f"({old}) {sign} {name}" if is_sum else f"{old} {sign} {name}"
-        line = site.first + site.text.count("\n", 0, first)
-        yield SmallEdit(EditKind.MISSING, site.file, site.begin + first, site.begin + last, old, new, line)
+        yield site.edit(EditKind.MISSING, first, last, new)
 
 
 def _terms(text: str, first: int, last: int) -> Iterator[tuple[int, int]]:

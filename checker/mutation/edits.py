@@ -121,6 +121,11 @@ class EditSite:
         """Whether a place is one of its lines."""
         return file == self.file and self.first <= line <= self.last
 
+    def edit(self, kind: EditKind, first: int, last: int, new: str) -> SmallEdit:
+        """The edit that writes `new` for a part of its text."""
+        line = self.first + self.text.count("\n", 0, first)
+        return SmallEdit(kind, self.file, self.begin + first, self.begin + last, self.text[first:last], new, line)
+
     def after(self, edit: SmallEdit) -> str:
         """Its text after one of its edits."""
         return self.text[: edit.begin - self.begin] + edit.new + self.text[edit.end - self.begin :]

@@ -86,11 +86,15 @@ def exchanged_numbers(first: Expr, second: Expr) -> tuple[Span, str]:
             texts = str(int(one)), repr(float(other))
         case _:
             return exchanged(first, second)
-    between = first.span.source.text[first.span.finish : second.span.begin]
-    return first.span.to(second.span), texts[1] + between + texts[0]
+    return _in_places(first, second, texts)
 
 
 def exchanged(first: Expr | Identifier, second: Expr | Identifier) -> tuple[Span, str]:
     """Two expressions, the first before the second, each in the place of the other."""
+    return _in_places(first, second, (first.span.text, second.span.text))
+
+
+def _in_places(first: Expr | Identifier, second: Expr | Identifier, texts: tuple[str, str]) -> tuple[Span, str]:
+    """Two expressions, the first before the second, with the `texts` of them each in the place of the other."""
     between = first.span.source.text[first.span.finish : second.span.begin]
-    return first.span.to(second.span), second.span.text + between + first.span.text
+    return first.span.to(second.span), texts[1] + between + texts[0]

@@ -123,10 +123,10 @@ def _breaks_order(goals: Sequence[GoalConfiguration], number: int) -> bool:
 
     So they are on 30 of 36 timelines of right missions.
     """
-    mine = [at for at, one in enumerate(goals) if one.timeline == goals[number].timeline and one.start is not None]
-    times = {at: one.start[0] for at, one in enumerate(goals) if one.start is not None}
-    rest = [times[at] for at in mine if at != number]
-    return len(mine) >= _SERIES and rest == sorted(rest) and (whole := [times[at] for at in mine]) != sorted(whole)
+    timeline = goals[number].timeline
+    times = {at: one.start[0] for at, one in enumerate(goals) if one.timeline == timeline and one.start is not None}
+    whole, rest = list(times.values()), [time for at, time in times.items() if at != number]
+    return len(whole) >= _SERIES and rest == sorted(rest) and whole != sorted(whole)
 
 
 def _promised(text: MissionText, number_of: int, kept: PropertyConfiguration) -> Iterator[EditSite]:

@@ -97,10 +97,7 @@ def _advanced(lines: Sequence[EditSite], numbers: set[str]) -> Iterator[tuple[Ed
         for site, one in said:
             steps = {sign for text in conditions for sign in _steps(one.group(2), numbers, text)}
             if one.group(2) in numbers and len(steps) == 1:
-                begin, end = (site.begin + at for at in one.span(3))
-                new = f"{one.group(3)} {steps.pop()} 1"
-                line = site.first + site.text.count("\n", 0, one.start(3))
-                yield site, SmallEdit(EditKind.MISSING, site.file, begin, end, one.group(3), new, line)
+                yield site, site.edit(EditKind.MISSING, *one.span(3), f"{one.group(3)} {steps.pop()} 1")
 
 
 def _steps(name: str, numbers: Container[str], condition: str) -> Iterator[str]:

@@ -53,8 +53,7 @@ def _counted(sites: Sequence[EditSite]) -> Iterator[tuple[EditSite, SmallEdit]]:
         if len(group) >= _FEWEST and all(_WHOLE.fullmatch(said) for *_, said in group):
             for row, missed in _renumbered([int(said) for *_, said in group]):
                 site, at, old = group[row]
-                begin, line = site.begin + at, site.first + site.text.count("\n", 0, at)
-                yield site, SmallEdit(EditKind.CONSTANT, site.file, begin, begin + len(old), old, str(missed), line)
+                yield site, site.edit(EditKind.CONSTANT, at, at + len(old), str(missed))
 
 
 def _renumbered(numbers: list[int]) -> list[tuple[int, int]]:
@@ -134,9 +133,7 @@ def _waiting(sites: Sequence[EditSite]) -> Iterator[tuple[EditSite, SmallEdit]]:
             continue
         firsts = before.get((site.file, site.scope), {}).get(found.group(1), set())
         for first in sorted(firsts) if len(firsts) == 1 else ():
-            begin, end = (site.begin + at for at in found.span(2))
-            line = site.first + site.text.count("\n", 0, found.start(2))
-            yield site, SmallEdit(EditKind.TOKEN, site.file, begin, end, "start", f"{first}.end", line)
+            yield site, site.edit(EditKind.TOKEN, *found.span(2), f"{first}.end")
 
 
 def _left(sites: Sequence[EditSite]) -> Iterator[tuple[EditSite, SmallEdit]]:
@@ -147,7 +144,4 @@ def _left(sites: Sequence[EditSite]) -> Iterator[tuple[EditSite, SmallEdit]]:
     for site in sites:
         for name in sorted(taken.get((site.file, site.scope), set()) - set(_REST.findall(site.text))):
             for found in re.finditer(rf"(?<=[*/])\s*\b({name})\b(?!\s*[*/.(])|\b({name})\b(?=\s*\*)", site.text):
-                at = found.start(1 if found.group(1) else 2)
-                begin, line = site.begin + at, site.first + site.text.count("\n", 0, at)
-                new = f"(1.0 - {name})"
-                yield site, SmallEdit(EditKind.FORMULA, site.file, begin, begin + len(name), name, new, line)
+                yield site, site.edit(EditKind.FORMULA, *found.span(1 if found.group(1) else 2), f"(1.0 - {name})")

@@ -6,6 +6,7 @@ from nddl_lang.lint.codes import ALWAYS_TRUE, NEVER_DECIDED, NEVER_TRUE, SEVERAL
 from nddl_lang.lint.logic import Known, assume, truth
 from nddl_lang.lint.part import Facts, Finding, Part
 from nddl_lang.lint.reading import declared, is_finite
+from nddl_lang.semantics.names import COMPARISONS
 from nddl_lang.semantics.schema import Kind, LocalReference, MemberReference, TokenVariableReference, Variable
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import (
@@ -148,7 +149,7 @@ def _computed_in_place(
 def _is_whole(condition: Expr, path: PathExpr) -> bool:
     """Whether a name is one side of a comparison, not a part of one."""
     return any(
-        path in (node.left, node.right) and node.op in ("==", "!=", "<", "<=", ">", ">=")
+        path in (node.left, node.right) and node.op in COMPARISONS
         for node in descendants(condition)
         if isinstance(node, BinaryExpr)
     )

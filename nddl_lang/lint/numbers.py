@@ -20,6 +20,7 @@ from nddl_lang.lint.reading import declared, domain_of
 from nddl_lang.lint.sampling import draws_of
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.literals import is_fraction, number, whole_beside
+from nddl_lang.semantics.names import COMPARISONS
 from nddl_lang.semantics.schema import GlobalReference, Interval, Kind, LocalReference, Values, Variable
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import (
@@ -44,7 +45,6 @@ from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 from nddl_lang.text.source import Span
 
 _LARGEST_FLOAT = 2.0**51  # what is beyond counts as infinite, as in EUROPA
-_COMPARISONS = frozenset({"==", "!=", "<", "<=", ">", ">="})
 _ARITHMETIC = frozenset({"+", "-", "*", "/"})
 _TRUTHS = Values((0, 1))
 _ROUND = "say how to round: `ceil(...)` or `floor(...)`"
@@ -89,7 +89,7 @@ def _tests(part: Part) -> Iterator[BinaryExpr]:
             roots += (expression.left, expression.right)
     for root in roots:
         for node in descendants(root):
-            if isinstance(node, BinaryExpr) and node.op in _COMPARISONS:
+            if isinstance(node, BinaryExpr) and node.op in COMPARISONS:
                 yield node
 
 
@@ -270,7 +270,7 @@ def lint_chained_comparisons(part: Part) -> Iterator[Finding]:
     """`a < b < c`, which compares the truth of `a < b` with `c`."""
     for outer in part.all(BinaryExpr):
         inner = outer.left
-        if outer.op not in _COMPARISONS or not isinstance(inner, BinaryExpr) or inner.op not in _COMPARISONS:
+        if outer.op not in COMPARISONS or not isinstance(inner, BinaryExpr) or inner.op not in COMPARISONS:
             continue
         if inner.left.span.begin > inner.span.begin:  # in parentheses: it is meant so
             continue

@@ -68,9 +68,7 @@ def other_parameters(context: Context, binary: BinaryExpr, left: Type, right: Ty
             if one.type is not None and _is_alike(one.type, wanted) and text != beside.span.text:
                 (named if one.name == last else fitting).append((side, text))
     found = named or fitting
-    return tuple(
-        Fix(f"write `{text}`", (Edit(side.span, text),), safe=False) for side, text in found if len(found) == 1
-    )
+    return only_one(found[0][0].span, [text for _, text in found]) if found else ()
 
 
 def _siblings(context: Context, side: PathExpr) -> Iterator[Variable]:

@@ -18,6 +18,6 @@ def but_colours(text: str) -> str:
     return _BUT_COLOURS.sub(lambda found: found[0] if len(found[0]) > 1 else _SIGN, text)
 
 
-def counted(count: int, word: str) -> str:
-    """`1 goal`, `2 goals`."""
-    return f"{count} {word}{'' if count == 1 else 's'}"
+def counted(count: int, word: str, words: str | None = None) -> str:
+    """`1 goal`, `2 goals`; `words` is what several are called where an `s` does not do."""
+    return f"{count} {word if count == 1 else words or f'{word}s'}"
